@@ -142,6 +142,8 @@ private:
             auto bad = bad_;
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k] && enlarge(k)) bad[k] = 0;
+            // A border that touches itself, as those of plain shapes do, is mapped with its parts apart.
+            if (round == 0 && !params_.keep_charts && report_.complete) keep_apart(bad);
             idx largest = 0; // of those that are left
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k]) largest = std::max(largest, charts_->first_cell[k + 1] - charts_->first_cell[k]);

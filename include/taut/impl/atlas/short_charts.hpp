@@ -118,7 +118,7 @@ private:
             // Ever more cautious, so that it holds in the end.
             const double more = holds ? 0.8 * (bound - mean) : -excess - 0.03 * (1 + turn) * allowed;
             asked -= more;
-            cutting.adjust(more, missed > 1 || (crossing > 0 && turn > 2));
+            cutting.adjust(more, missed > 2 || (missed > 1 && excess > 0.2 * allowed) || (crossing > 0 && turn > 4));
             auto seams = cutting.seams();
             for (std::size_t s = 0; s < seams.size(); ++s) seams[s] = seams[s] || rest_[s];
             if (holds && seams == cut_before) break; // nothing can be sewn up
@@ -192,8 +192,7 @@ private:
     laid_charts lay_short(const short_cutting& cutting, budget& limits)
     {
         const auto prices = cutting.prices();
-        if (std::getenv("TR")) std::fprintf(stderr, "before straighten %.4f\n", price_of_seams(prices));
-        if (!std::getenv("NOSTR")) straighten(c_.mesh_, c_.facets_, c_.seam_, c_.params_.charts.seams, c_.params_.charts.together, limits, prices,
+        straighten(c_.mesh_, c_.facets_, c_.seam_, cutting.settled(), c_.params_.charts.together, limits, prices,
                    {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
         c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
         auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(), true);
@@ -201,8 +200,24 @@ private:
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
         if (std::getenv("TR")) { std::fprintf(stderr, "after straighten %.4f:", price_of_seams(prices)); for (double e : c_.energy_) std::fprintf(stderr, " %.5f", e); std::fprintf(stderr, "\n"); }
-        return {c_.seam_,      *c_.charts_, c_.flat_, c_.energy_, c_.unfit(), {}, price_of_seams(prices),
+        auto bad = c_.unfit();
+        const auto touching = touching_charts();
+        for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] || touching[k];
+        return {c_.seam_,       *c_.charts_,  c_.flat_, c_.energy_, std::move(bad), {}, price_of_seams(prices),
                 mean_energy(), false};
+    }
+
+    /// One flag a chart: 1 where its border meets itself once coordinates are rounded. Plain shapes have borders that
+    /// touch themselves exactly.
+    std::vector<char> touching_charts() const
+    {
+        constexpr double digits = 1 << 22;
+        std::vector<vec2> rounded = c_.flat_;
+        double size = 0;
+        for (const vec2& p : rounded) size = std::max({size, std::abs(p.x), std::abs(p.y)});
+        const double unit = size > 0 && size < std::numeric_limits<double>::infinity() ? size / digits : 1;
+        for (vec2& p : rounded) p = unit * vec2(std::round(p.x / unit), std::round(p.y / unit));
+        return crossing_charts(*c_.charts_, rounded);
     }
 
     /// What the seams count, each edge once.

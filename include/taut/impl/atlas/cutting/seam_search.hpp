@@ -59,9 +59,11 @@ public:
     /// What the seams cost, and what is to be kept apart in the plane: that takes distortion, which others then lack.
     double price() const
     {
-        constexpr double any = 0.05; // lengths by the root of the area
-        const double apart = any * std::sqrt(rest_.total) + worth_ * overlap() * rest_.total;
-        return seam_price(rest_, flat_.seam) + (border_crossings(rest_, flat_, 1) > 0 ? apart : 0);
+        constexpr double any = 0.05, chart = 0.03; // lengths by the root of the area
+        const double root = std::sqrt(rest_.total);
+        const double apart = any * root + worth_ * overlap() * rest_.total;
+        return seam_price(rest_, flat_.seam) + chart * root * pieces_between(rest_.facets, flat_.seam).second +
+               (border_crossings(rest_, flat_, 1) > 0 ? apart : 0);
     }
 
     /// The part of the area that lies on other parts of its chart.
@@ -171,8 +173,8 @@ private:
     /// The length of seams that could be sewn up for what it costs to keep an overlap apart in the plane, by its area.
     double worth() const
     {
-        constexpr double apart = 0.4; // mean energy that an overlap of the whole area would cost, about
-        constexpr double least = 5, most = 40, part = 0.3;
+        constexpr double apart = 0.2; // mean energy that an overlap of the whole area would cost, at least
+        constexpr double least = 5, most = 15, part = 0.3;
         const double root = std::sqrt(rest_.total);
         const double here = seam_price(rest_, flat_.seam);
         double lengths = 0; // by mean energy, at the bound

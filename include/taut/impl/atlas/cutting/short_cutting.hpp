@@ -154,6 +154,17 @@ public:
         return result;
     }
 
+    /// One flag a side of the surface: 1 where seams stay as they are, since they are given, or were found on the
+    /// surface itself.
+    std::vector<char> settled() const
+    {
+        std::vector<char> stay = flags(params_.seams, facets_.twin.size());
+        for (std::size_t k = 0; k < searches_.size(); ++k)
+            if (searches_[k] && searches_[k]->search && !searches_[k]->coarser)
+                for (std::size_t s = 0; s < 3 * cells(k); ++s) stay[origin(k, s)] = 1;
+        return stay;
+    }
+
     /// The seams of the surface, one flag a side.
     std::vector<char> seams()
     {
