@@ -96,7 +96,11 @@ private:
                 missed += excess > 0;
             }
             now.holds = now.mean <= bound && excess <= 0;
-            if (std::getenv("TR")) std::fprintf(stderr,"turn %d flattened %.4f crossing %d mean %.4f apart %.4f bound %.4f overlap %.4f charts %d\n", turn, flattened, int(crossing), now.mean, rate, bound, cutting.overlap(), int(now.charts.charts()));
+            if (std::getenv("TR"))
+                std::fprintf(
+                    stderr,
+                    "turn %d flattened %.4f crossing %d mean %.4f apart %.4f bound %.4f overlap %.4f charts %d\n", turn,
+                    flattened, int(crossing), now.mean, rate, bound, cutting.overlap(), int(now.charts.charts()));
             const double mean = now.mean;
             const bool holds = now.holds;
             // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
@@ -199,11 +203,16 @@ private:
         c_.energy_.clear();
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
-        if (std::getenv("TR")) { std::fprintf(stderr, "after straighten %.4f:", price_of_seams(prices)); for (double e : c_.energy_) std::fprintf(stderr, " %.5f", e); std::fprintf(stderr, "\n"); }
+        if (std::getenv("TR"))
+        {
+            std::fprintf(stderr, "after straighten %.4f:", price_of_seams(prices));
+            for (double e : c_.energy_) std::fprintf(stderr, " %.5f", e);
+            std::fprintf(stderr, "\n");
+        }
         auto bad = c_.unfit();
         const auto touching = touching_charts();
         for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] || touching[k];
-        return {c_.seam_,       *c_.charts_,  c_.flat_, c_.energy_, std::move(bad), {}, price_of_seams(prices),
+        return {c_.seam_,      *c_.charts_, c_.flat_, c_.energy_, std::move(bad), {}, price_of_seams(prices),
                 mean_energy(), false};
     }
 

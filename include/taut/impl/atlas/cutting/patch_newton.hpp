@@ -225,7 +225,7 @@ private:
     }
 
     std::size_t n_ = 0, size_ = 0;           // unknowns, entries of the envelope
-    std::vector<std::size_t> order_;          // of the vertices that move
+    std::vector<std::size_t> order_;         // of the vertices that move
     std::vector<std::size_t> start_, first_; // one a row: its first column, where that lies
     std::vector<double> matrix_, force_, step_;
     std::vector<vec2> moved_, trial_;

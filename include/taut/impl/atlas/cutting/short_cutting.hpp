@@ -131,17 +131,7 @@ public:
     }
 
     /// What a seam along each side of the surface counts.
-    std::vector<double> prices() const
-    {
-        std::vector<double> price(facets_.twin.size());
-        for (std::size_t s = 0; s < price.size(); ++s)
-        {
-            const auto [a, b] = side_vertices(mesh_, static_cast<idx>(s));
-            price[s] = glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
-            if (!params_.factors.empty()) price[s] *= params_.factors[s];
-        }
-        return price;
-    }
+    std::vector<double> prices() const { return side_prices(mesh_, facets_, {}, params_.factors); }
 
     /// One flag a triangle of the surface: 1 where no seams were found.
     std::vector<char> unfound() const
