@@ -13,6 +13,7 @@
 
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
+#include <taut/impl/atlas/filling_cuts.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/pinned_charts.hpp>
@@ -23,6 +24,7 @@
 #include <taut/impl/mesh/validate.hpp>
 #include <taut/impl/packing/certificate.hpp>
 #include <taut/impl/packing/outlines.hpp>
+#include <taut/impl/packing/pieces.hpp>
 
 namespace taut::impl
 {
@@ -38,6 +40,7 @@ public:
         validate(mesh_, facets_, atlas_requirements);
         report_.seconds.setup = budget_.lap();
         flat_charts::run();
+        fill_better();
         lay();
         settle();
         note_enlarged();
@@ -74,6 +77,91 @@ public:
     }
 
 private:
+    /// Cuts charts across their waists, as long as the square is used much better then for the length of the cuts.
+    void fill_better()
+    {
+        constexpr double enough = 0.6;                        // use of the square
+        constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
+        constexpr idx few = 16;                               // charts
+        const auto& packing = params_.packing;
+        if (params_.prefer != chart_preference::seams || params_.keep_charts || params_.symmetric || params_.stack ||
+            !packing.walls.empty() || packing.on_grid() || packing.tiles > 1)
+            return;
+        if (!report_.reason.empty() || !report_.complete || charts_->charts() > few) return;
+        const double length = length_of_seams(mesh_, facets_, seam_);
+        double left = least_length * std::sqrt(surface_area()) + by_seams * length;
+        while (left > 0 && report_.complete)
+        {
+            const double use = draft_use(*charts_, triangles_as_laid().uv);
+            const auto best = use < enough ? best_waist(use, left) : waist_cutting::cut{};
+            if (best.sides.empty()) break;
+            left -= best.price;
+            for (const std::size_t s : best.sides) seam_[s] = seam_[u(facets_.twin[s])] = 1;
+            cut(triangles_as_laid());
+            const ideal_elements<triangle> ideal(charts_->surface);
+            for (std::size_t k = 0; k < energy_.size(); ++k)
+                energy_[k] = area_and_energy(*charts_, k, flat_, ideal).second;
+        }
+        report_.seconds.pack += budget_.lap();
+    }
+
+    double surface_area() const
+    {
+        double sum = 0;
+        for (const double a : ideal_elements<triangle>(mesh_).measure) sum += a;
+        return sum;
+    }
+
+    /// How much of the square charts use, about. uv: one per corner of the surface
+    double draft_use(const chart_mesh& charts, std::span<const vec2> uv) const
+    {
+        std::vector<vec2> flat(charts.surface.points().size());
+        for (std::size_t i = 0; i < charts.cell_origins.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                flat[u(charts.surface.cells()[i][k])] = uv[3 * u(charts.cell_origins[i]) + k];
+        const auto outlines = find_outlines(flat, charts.surface.cells(), charts.first_cell, charts.first_vertex);
+        auto params = params_.packing;
+        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
+        return pack_outlined(flat, outlines, params, true).utilization;
+    }
+
+    /// The cut across a chart that lets the square be used better by most for its length; without sides if none is
+    /// worth it. use: without a cut; longest: what it may count
+    waist_cutting::cut best_waist(double use, double longest) const
+    {
+        constexpr std::size_t tried = 2; // charts, those that waste most
+        constexpr double worth = 0.12;   // gain of use, by length by the root of the area
+        const auto outlines =
+            find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
+        std::vector<std::pair<double, std::size_t>> waste;
+        for (const piece& p : make_pieces(flat_, outlines, {}, true))
+            waste.emplace_back(p.area - p.box.x * p.box.y, waste.size());
+        std::sort(waste.begin(), waste.end());
+        const auto prices = side_prices(mesh_, facets_, params_.charts.together, factors_);
+        const auto laid = triangles_as_laid();
+        const double root = std::sqrt(surface_area());
+        waist_cutting::cut best;
+        double most = worth / root;
+        for (std::size_t i = 0; i < std::min(tried, waste.size()); ++i)
+        {
+            const std::size_t k = waste[i].second;
+            std::vector<idx> triangles(charts_->cell_origins.begin() + charts_->first_cell[k],
+                                       charts_->cell_origins.begin() + charts_->first_cell[k + 1]);
+            std::sort(triangles.begin(), triangles.end());
+            for (auto& one : waist_cutting(mesh_, triangles, seam_, prices).cuts())
+            {
+                if (one.price > longest) continue;
+                auto seam = seam_;
+                for (const std::size_t s : one.sides) seam[s] = seam[u(facets_.twin[s])] = 1;
+                const double rate = (draft_use(cut_charts(mesh_, facets_, seam), laid.uv) - use) / one.price;
+                if (!(rate > most)) continue;
+                most = rate;
+                best = std::move(one);
+            }
+        }
+        return best;
+    }
+
     /// Packs charts into the tiles, rounded as in the file.
     void lay()
     {
@@ -122,6 +210,9 @@ private:
                 uv_[v] += vec2(params_.origin.x - 10 * row, (params_.origin.y + row) * params.aspect);
         }
         bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
+        if (std::getenv("TR"))
+            for (std::size_t k = 0; k < bad_.size(); ++k)
+                if (bad_[k]) std::fprintf(stderr, "bad %zu of %zu\n", k, bad_.size());
         if (stacks_)
         {
             stacks_->share(uv_);
@@ -141,6 +232,8 @@ private:
             auto bad = bad_;
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k] && enlarge(k)) bad[k] = 0;
+            // A border that touches itself, as those of plain shapes do, is mapped with its parts apart.
+            if (round == 0 && !params_.keep_charts && report_.complete) keep_apart(bad);
             idx largest = 0; // of those that are left
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k]) largest = std::max(largest, charts_->first_cell[k + 1] - charts_->first_cell[k]);

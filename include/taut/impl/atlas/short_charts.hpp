@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <span>
@@ -40,9 +41,11 @@ public:
                                .part = c_.params_.prefer == chart_preference::seams},
                               limits);
         cutting.run();
-        c_.seam_ = cutting.seams();
+        const auto found = c_.seam_ = cutting.seams();
         c_.report_.complete = c_.report_.complete && c_.budget_.in_time() && !limits.over();
         if (c_.report_.complete) segment_rest(cutting.unfound());
+        rest_ = c_.seam_;
+        for (std::size_t s = 0; s < rest_.size(); ++s) rest_[s] = rest_[s] && !found[s];
         c_.report_.complete = c_.report_.complete && c_.budget_.in_time();
         if (!c_.report_.complete)
         {
@@ -67,7 +70,8 @@ private:
         // One more map costs more than what it may save.
         const bool large = c_.mesh_.cells().size() > 30'000 || cutting.pieces() > 64;
         constexpr int turns = 8;
-        double apart = std::min(0.5 * cutting.overlap(), 0.3 * allowed); // what it costs to keep borders apart, about
+        double rate = 0.4; // mean energy that it costs to keep borders apart, about, by the part that overlaps
+        int missed = 0;    // maps with their borders kept apart that were above the bound
         double first_above = 0, asked = 0; // excess of the first turn, what it was to become less since
         bool rough = false;
         std::optional<laid_charts> best, first;
@@ -79,8 +83,8 @@ private:
             for (const char bad : now.bad) now.plain.push_back(bad == 0);
             const auto crossing = std::count(now.bad.begin(), now.bad.end(), char(1));
             const double flattened = now.mean;
-            if (crossing == 0) apart = 0;
-            double excess = now.mean + apart - bound;
+            const double overlap = crossing > 0 ? cutting.overlap() : 0;
+            double excess = now.mean + rate * overlap - bound;
             if (excess <= 0 && crossing > 0)
             {
                 c_.keep_apart(now.bad);
@@ -88,9 +92,15 @@ private:
                 now.flat = c_.flat_;
                 now.mean = mean_energy();
                 excess = now.mean - bound;
-                apart = std::max(0.0, now.mean - flattened);
+                rate = std::clamp((now.mean - flattened) / std::max(overlap, 0.01), 0.1, 2.0);
+                missed += excess > 0;
             }
             now.holds = now.mean <= bound && excess <= 0;
+            if (std::getenv("TR"))
+                std::fprintf(
+                    stderr,
+                    "turn %d flattened %.4f crossing %d mean %.4f apart %.4f bound %.4f overlap %.4f charts %d\n", turn,
+                    flattened, int(crossing), now.mean, rate, bound, cutting.overlap(), int(now.charts.charts()));
             const double mean = now.mean;
             const bool holds = now.holds;
             // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
@@ -112,8 +122,9 @@ private:
             // Ever more cautious, so that it holds in the end.
             const double more = holds ? 0.8 * (bound - mean) : -excess - 0.03 * (1 + turn) * allowed;
             asked -= more;
-            cutting.adjust(more);
+            cutting.adjust(more, missed > 2 || (missed > 1 && excess > 0.2 * allowed) || (crossing > 0 && turn > 4));
             auto seams = cutting.seams();
+            for (std::size_t s = 0; s < seams.size(); ++s) seams[s] = seams[s] || rest_[s];
             if (holds && seams == cut_before) break; // nothing can be sewn up
             c_.seam_ = cut_before = std::move(seams);
         }
@@ -128,7 +139,6 @@ private:
                 sew_up(std::vector<char>(c_.energy_.size(), 1), false, limits);
         }
         if (!c_.report_.complete) return lay_unfinished();
-        if (!best->holds && patched(best->length, cutting)) return;
         if (!c_.report_.complete) return lay_unfinished();
         if (!best->holds) c_.keep_apart(best->bad);
         if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
@@ -139,34 +149,6 @@ private:
         if (!c_.report_.complete) lay_unfinished();
         if (const double mean = mean_energy(); rough && c_.report_.complete && mean > c_.params_.charts.mean_distortion)
             c_.report_.notes.push_back(rough_note(mean));
-    }
-
-    /// Cuts the whole surface as for packing, where short seams do not reach the bound, and takes what comes of it if
-    /// the bound holds and seams are not much longer than `length`: plain shapes of few triangles have charts without
-    /// distortion that no sequence of short cuts leads to, rough ones have none.
-    bool patched(double length, const short_cutting& cutting)
-    {
-        constexpr std::size_t few = 30'000; // triangles: it takes seconds more
-        constexpr double longer = 2;
-        if (c_.mesh_.cells().size() > few || c_.params_.prefer != chart_preference::seams) return false;
-        auto seam = c_.seam_;
-        auto charts = *c_.charts_;
-        auto flat = c_.flat_;
-        auto energy = c_.energy_;
-        auto notes = c_.report_.notes;
-        c_.seam_.assign(c_.facets_.twin.size(), 0);
-        std::copy(c_.params_.charts.seams.begin(), c_.params_.charts.seams.end(), c_.seam_.begin());
-        c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
-        mend_rest(std::vector<char>(u(c_.charts_->charts()), 1));
-        const bool better = c_.report_.complete && mean_energy() <= c_.params_.charts.mean_distortion &&
-                            price_of_seams(cutting.prices()) <= longer * length;
-        if (better) return true;
-        c_.seam_ = std::move(seam);
-        c_.charts_.emplace(std::move(charts));
-        c_.flat_ = std::move(flat);
-        c_.energy_ = std::move(energy);
-        c_.report_.notes = std::move(notes);
-        return false;
     }
 
     /// Of a run that has ended: what has no good map becomes patches.
@@ -214,15 +196,37 @@ private:
     laid_charts lay_short(const short_cutting& cutting, budget& limits)
     {
         const auto prices = cutting.prices();
-        straighten(c_.mesh_, c_.facets_, c_.seam_, c_.params_.charts.seams, c_.params_.charts.together, limits, prices,
+        straighten(c_.mesh_, c_.facets_, c_.seam_, cutting.settled(), c_.params_.charts.together, limits, prices,
                    {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
         c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
         auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(), true);
         c_.energy_.clear();
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
-        return {c_.seam_,      *c_.charts_, c_.flat_, c_.energy_, c_.unfit(), {}, price_of_seams(prices),
+        if (std::getenv("TR"))
+        {
+            std::fprintf(stderr, "after straighten %.4f:", price_of_seams(prices));
+            for (double e : c_.energy_) std::fprintf(stderr, " %.5f", e);
+            std::fprintf(stderr, "\n");
+        }
+        auto bad = c_.unfit();
+        const auto touching = touching_charts();
+        for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] || touching[k];
+        return {c_.seam_,      *c_.charts_, c_.flat_, c_.energy_, std::move(bad), {}, price_of_seams(prices),
                 mean_energy(), false};
+    }
+
+    /// One flag a chart: 1 where its border meets itself once coordinates are rounded. Plain shapes have borders that
+    /// touch themselves exactly.
+    std::vector<char> touching_charts() const
+    {
+        constexpr double digits = 1 << 22;
+        std::vector<vec2> rounded = c_.flat_;
+        double size = 0;
+        for (const vec2& p : rounded) size = std::max({size, std::abs(p.x), std::abs(p.y)});
+        const double unit = size > 0 && size < std::numeric_limits<double>::infinity() ? size / digits : 1;
+        for (vec2& p : rounded) p = unit * vec2(std::round(p.x / unit), std::round(p.y / unit));
+        return crossing_charts(*c_.charts_, rounded);
     }
 
     /// What the seams count, each edge once.
@@ -340,6 +344,7 @@ private:
     }
 
     flat_charts& c_;
+    std::vector<char> rest_; // seams of what the search found none for, one flag a side
 };
 
 inline void flat_charts::cut_short()

@@ -168,13 +168,14 @@ private:
                 }
             if (2 * resolution_ > params_.max_resolution) break;
         }
-        throw packing_error(packing_fault::no_room, {},
-                            "at " + short_number(params_.texels_per_unit) + " texels a unit the charts, of which " +
-                                largest_box() + ", do not fit into " + std::to_string(params_.tiles) +
-                                (params_.tiles == 1 ? " tile of " : " tiles of ") + std::to_string(resolution_) +
-                                " x " + short_number(resolution_ * params_.aspect) +
-                                " texels; ask for fewer texels, or for more or larger tiles; a chart larger than a tile "
-                                "needs a higher resolution, or shorter charts (a tighter bound of distortion)");
+        throw packing_error(
+            packing_fault::no_room, {},
+            "at " + short_number(params_.texels_per_unit) + " texels a unit the charts, of which " + largest_box() +
+                ", do not fit into " + std::to_string(params_.tiles) +
+                (params_.tiles == 1 ? " tile of " : " tiles of ") + std::to_string(resolution_) + " x " +
+                short_number(resolution_ * params_.aspect) +
+                " texels; ask for fewer texels, or for more or larger tiles; a chart larger than a tile "
+                "needs a higher resolution, or shorter charts (a tighter bound of distortion)");
     }
 
     /// "the largest is 300 x 20", in texels.

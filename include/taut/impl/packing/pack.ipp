@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -29,8 +30,8 @@ namespace taut::impl
 class packer
 {
 public:
-    packer(std::span<const piece> pieces, const pack_params& params)
-        : pieces_(pieces), params_(params), limits_(params.time_limit, params.observer)
+    packer(std::span<const piece> pieces, const pack_params& params, bool draft)
+        : pieces_(pieces), params_(params), draft_(draft), limits_(params.time_limit, params.observer)
     {
         for (const piece& p : pieces_)
         {
@@ -59,7 +60,7 @@ public:
         for (const piece& p : pieces_) longest = std::max({longest, p.box.x, p.box.y});
         const double side = estimated_side();
         search(std::max(side, longest), !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
-        if (params_.rotate && (pieces_.size() <= 16 || longest > 0.8 * side))
+        if (params_.rotate && !draft_ && (pieces_.size() <= 16 || longest > 0.8 * side))
             search(std::max(side, longest / std::numbers::sqrt2), 16);
         packed_.complete = !limits_.over();
         return std::move(packed_);
@@ -185,13 +186,13 @@ private:
     {
         const std::size_t n = pieces_.size();
         const bool quick = n > 1500;
-        const idx cells =
-            quick ? 1024 : std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(n))), 512, 2048);
+        const idx fine = quick ? 1024 : std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(n))), 512, 2048);
+        const idx cells = draft_ ? fine / 2 : fine;
         draw(cells / length, turns);
         idx side = cells;
         tile_layout best;
         double least = std::numeric_limits<double>::infinity();
-        for (int k = 0; k < (quick ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
+        for (int k = 0; k < (quick || draft_ ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
         {
             const double most = 1.02 * side + 1; // has its padding, too, if the layout is a little larger
             tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(most), cells_per_length_,
@@ -211,16 +212,17 @@ private:
             side = std::max<idx>(8, static_cast<idx>(std::lround(side * std::sqrt(filled))));
         }
         if (!best.complete) return;
-        reorder(best, least);
+        if (!draft_) reorder(best, least);
         keep(best, least);
     }
 
-    /// Tries other orders near the best one, in a number of constant total time.
+    /// Tries other orders near the best one, none twice, in a number of constant total time.
     void reorder(tile_layout& best, double& least)
     {
         const std::size_t n = pieces_.size();
         std::minstd_rand lot(1);
         double last = least;
+        std::set<std::pair<idx, std::vector<idx>>> tried; // by side
         for (std::size_t k = 0; n > 1 && k < std::min<std::size_t>(100, 3000 / n) && !limits_.over(); ++k)
         {
             auto order = order_;
@@ -230,6 +232,7 @@ private:
                 if (j < n) std::swap(order[i], order[j]);
             }
             const auto side = static_cast<idx>(least) - 1;
+            if (n <= 16 && !tried.emplace(side, order).second) continue;
             tile_layout l = lay_out(pieces_, poses_, order, side, params_.tiles, gap_in_cells(1.02 * side + 1),
                                     cells_per_length_, n > 1500, limits_);
             ++packed_.layouts;
@@ -256,8 +259,12 @@ private:
             [&](std::size_t begin, std::size_t end)
             {
                 for (std::size_t c = begin; c < end; ++c)
+                {
                     for (int k = 0; k < turns; ++k)
                         poses_[c].push_back(make_pose(pieces_[c], 2 * std::numbers::pi * k / turns, cells_per_length_));
+                    if (turns >= 8)
+                        poses_[c].push_back(make_pose(pieces_[c], squarest_turn(pieces_[c]), cells_per_length_));
+                }
             },
             0, 1);
         order_.resize(n);
@@ -302,6 +309,7 @@ private:
 
     std::span<const piece> pieces_;
     const pack_params& params_;
+    bool draft_;
     budget limits_;
     double area_ = 0, length_ = 0;
     double gap_ = 0, border_ = 0; // in tiles
@@ -311,7 +319,7 @@ private:
     packing packed_;
 };
 
-packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params)
+packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params, bool draft)
 {
     params.validate(outlines.charts());
     double area = 0;
@@ -319,7 +327,7 @@ packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, 
     if (!(area > 0)) throw packing_error(packing_fault::no_area, {}, "the charts have no area; flatten them again");
     const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
     if (params.on_grid()) return grid_packer(pieces, params).run();
-    packing packed = packer(pieces, params).run();
+    packing packed = packer(pieces, params, draft).run();
     packed.resolution = params.resolution;
     packed.tiles = params.tiles;
     return packed;

@@ -92,6 +92,25 @@ inline vec2 tightest_axis(std::span<const vec2> hull)
     return high.x - low.x >= high.y - low.y ? best : vec2(-best.y, best.x);
 }
 
+/// The turn from the tightest box at which a piece is in the smallest square.
+inline double squarest_turn(const piece& p)
+{
+    constexpr int steps = 180; // of half a degree: the sides of the box of a quarter turn are the same
+    double best = 0, least = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < steps; ++k)
+    {
+        const double turn = std::numbers::pi / 2 * k / steps;
+        const vec2 t(std::cos(turn), std::sin(turn));
+        const auto [low, high] = box_in(p.hull, {t.x * p.axis.x - t.y * p.axis.y, t.x * p.axis.y + t.y * p.axis.x});
+        if (const double side = std::max(high.x - low.x, high.y - low.y); side < least)
+        {
+            least = side;
+            best = turn;
+        }
+    }
+    return best;
+}
+
 /// They refer to uv and outlines.
 inline std::vector<piece> make_pieces(std::span<const vec2> uv, const chart_outlines& outlines,
                                       std::span<const double> densities, bool turn)

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -106,10 +107,14 @@ inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const
         pairs.push_back({b, a});
     }
     std::sort(pairs.begin(), pairs.end());
+    std::vector<idx> row(rest.surface.cells().size() + 1, 0); // the first pair of each triangle
+    for (const auto& [a, b] : pairs) ++row[u(a) + 1];
+    std::partial_sum(row.begin(), row.end(), row.begin());
     const auto find = [&](idx a, idx b)
     {
-        const auto at = std::lower_bound(pairs.begin(), pairs.end(), std::array<idx, 2>{a, b});
-        return at != pairs.end() && *at == std::array<idx, 2>{a, b} ? static_cast<idx>(at - pairs.begin()) : -1;
+        for (idx k = row[u(a)]; k < row[u(a) + 1]; ++k)
+            if (pairs[u(k)][1] == b) return k;
+        return idx(-1);
     };
     disjoint_sets sets(static_cast<idx>(pairs.size()));
     for (std::size_t i = 0; i < pairs.size(); ++i)

@@ -18,6 +18,7 @@ struct parting
 {
     double least_area = 0.015; ///< of a layer, by the whole; what is less is kept apart as it is mapped
     double longest = 0.4;      ///< of a cut, by the root of the area
+    double worth = 0;          ///< of an overlap, as a length by area: longer cuts than that and `longest` are not made
     int most = 40;             ///< cuts
     bool at_once = false;      ///< all overlaps of a map are parted before it follows
 };
@@ -48,7 +49,7 @@ inline int part_charts(const rest_surface& rest, flat_surface& flat, const parti
             double length = 0;
             for (const idx s : cut) length += rest.price[u(s)];
             if (cut.empty()) continue; // parted by another cut
-            if (!(length <= how.longest * std::sqrt(rest.total)))
+            if (!(length <= std::max(how.longest * std::sqrt(rest.total), how.worth * one.area)))
             {
                 left_alone.emplace_back(one.below.front(), one.above.front());
                 continue;

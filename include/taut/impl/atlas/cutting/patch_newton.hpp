@@ -41,7 +41,8 @@ struct map_patch
     }
 };
 
-/// Newton's method on a patch with a dense Cholesky factorization: some hundred unknowns, many times. Keeps its memory.
+/// Newton's method on a patch with a Cholesky factorization of its envelope (George, Liu 1981): some hundred unknowns,
+/// many times. Keeps its memory.
 class patch_newton
 {
 public:
@@ -51,6 +52,7 @@ public:
         double here = p.energy(rest, p.x);
         if (p.moving == 0 || !(here < std::numeric_limits<double>::infinity())) return here;
         n_ = 2 * static_cast<std::size_t>(p.moving);
+        lay_out(p);
         for (int i = 0; i < steps; ++i)
         {
             const double slope = direction(rest, p);
@@ -66,24 +68,63 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    double* row(std::size_t i) { return matrix_.data() + i * n_; }
+    /// Row i of the lower triangle, from column start_[i] on.
+    double* row(std::size_t i) { return matrix_.data() + first_[i]; }
+
+    /// Unknowns in the order of the longer side of the patch: what is coupled lies near the diagonal then.
+    void lay_out(map_patch& p)
+    {
+        vec2 low = p.x.front(), high = low;
+        order_.clear();
+        for (std::size_t v = 0; v < p.x.size(); ++v)
+        {
+            low = glm::min(low, p.x[v]);
+            high = glm::max(high, p.x[v]);
+            if (p.slot[v] >= 0) order_.push_back(v);
+        }
+        const int axis = high.x - low.x < high.y - low.y;
+        std::stable_sort(order_.begin(), order_.end(),
+                         [&](std::size_t a, std::size_t b) { return p.x[a][axis] < p.x[b][axis]; });
+        for (std::size_t k = 0; k < order_.size(); ++k) p.slot[order_[k]] = static_cast<idx>(k);
+        start_.resize(n_);
+        for (std::size_t i = 0; i < n_; ++i) start_[i] = i / 2 * 2;
+        for (const auto& t : p.cells)
+        {
+            idx least = p.moving;
+            for (const idx v : t)
+                if (p.slot[u(v)] >= 0) least = std::min(least, p.slot[u(v)]);
+            for (const idx v : t)
+                if (const idx k = p.slot[u(v)]; k >= 0)
+                    start_[2 * u(k)] = start_[2 * u(k) + 1] = std::min(start_[2 * u(k)], 2 * u(least));
+        }
+        first_.resize(n_);
+        size_ = 0;
+        for (std::size_t i = 0; i < n_; ++i)
+        {
+            first_[i] = size_;
+            size_ += i + 1 - start_[i];
+        }
+    }
 
     /// Sets step_ and returns the slope along it; 0 where there is none.
     double direction(const rest_surface& rest, const map_patch& p)
     {
-        matrix_.assign(n_ * n_, 0.0);
+        matrix_.assign(size_, 0.0);
         force_.assign(n_, 0.0);
         for (std::size_t i = 0; i < p.cells.size(); ++i) add(rest, p, i);
         step_ = force_;
         if (!factorize()) return 0;
         for (std::size_t i = 0; i < n_; ++i)
         {
-            step_[i] = (step_[i] - dot(row(i), step_.data(), i)) / row(i)[i];
+            const std::size_t width = i - start_[i];
+            step_[i] = (step_[i] - dot(row(i), step_.data() + start_[i], width)) / row(i)[width];
         }
         for (std::size_t i = n_; i-- > 0;)
         {
-            step_[i] /= row(i)[i];
-            for (std::size_t j = 0; j < i; ++j) step_[j] -= row(i)[j] * step_[i];
+            const std::size_t width = i - start_[i];
+            const double* const own = row(i);
+            const double x = step_[i] /= own[width];
+            for (std::size_t j = 0; j < width; ++j) step_[start_[i] + j] -= own[j] * x;
         }
         double slope = 0;
         for (std::size_t i = 0; i < n_; ++i) slope -= force_[i] * step_[i];
@@ -115,7 +156,8 @@ private:
                 force_[at[k] + r] -= g[k][static_cast<int>(r)];
                 for (std::size_t j = 0; j < 3; ++j)
                     if (at[j] <= at[k])
-                        for (std::size_t s = 0; s < 2; ++s) row(at[k] + r)[at[j] + s] += H[2 * k + r][2 * j + s];
+                        for (std::size_t s = 0; s < 2 && at[j] + s <= at[k] + r; ++s)
+                            row(at[k] + r)[at[j] + s - start_[at[k]]] += H[2 * k + r][2 * j + s];
             }
         }
     }
@@ -140,9 +182,14 @@ private:
     {
         for (std::size_t i = 0; i < n_; ++i)
         {
-            double* const own = row(i);
-            for (std::size_t j = 0; j < i; ++j) own[j] = (own[j] - dot(own, row(j), j)) / row(j)[j];
-            const double left = own[i] - dot(own, own, i);
+            double* const own = row(i) - start_[i];
+            for (std::size_t j = start_[i]; j < i; ++j)
+            {
+                const double* const other = row(j) - start_[j];
+                const std::size_t from = std::max(start_[i], start_[j]);
+                own[j] = (own[j] - dot(own + from, other + from, j - from)) / other[j];
+            }
+            const double left = own[i] - dot(own + start_[i], own + start_[i], i - start_[i]);
             if (!(left > 1e-13 * own[i])) return false;
             own[i] = std::sqrt(left);
         }
@@ -177,7 +224,9 @@ private:
         return here;
     }
 
-    std::size_t n_ = 0;
+    std::size_t n_ = 0, size_ = 0;           // unknowns, entries of the envelope
+    std::vector<std::size_t> order_;         // of the vertices that move
+    std::vector<std::size_t> start_, first_; // one a row: its first column, where that lies
     std::vector<double> matrix_, force_, step_;
     std::vector<vec2> moved_, trial_;
 };

@@ -15,6 +15,7 @@
 #include <taut/impl/atlas/cutting/over_cut.hpp>
 #include <taut/impl/atlas/cutting/part_charts.hpp>
 #include <taut/impl/atlas/cutting/sew_tips.hpp>
+#include <taut/impl/atlas/cutting/strained_cuts.hpp>
 #include <taut/impl/atlas/seams/straighten.hpp>
 #include <taut/impl/start/barycentric_map.hpp>
 
@@ -29,6 +30,7 @@ struct search_setting
     double least_weight = 0.3; ///< of ways, where the potential is greatest
     std::size_t patch = 100;   ///< triangles that follow a zip at once
     bool part = true;          ///< charts that lie on themselves are parted
+    bool everywhere = false;   ///< even by long cuts
     std::function<bool()> proceed = {};
 };
 
@@ -46,6 +48,7 @@ public:
         if (!cut()) return false;
         if (!(flat_.energy <= setting_.bound)) return false;
         sew(false);
+        worth_ = worth();
         if (setting_.part) part();
         return true;
     }
@@ -56,10 +59,11 @@ public:
     /// What the seams cost, and what is to be kept apart in the plane: that takes distortion, which others then lack.
     double price() const
     {
-        constexpr double any = 0.05, by_area = 5; // lengths by the root of the area
+        constexpr double any = 0.05, chart = 0.03; // lengths by the root of the area
         const double root = std::sqrt(rest_.total);
-        const double apart = any * root + by_area * overlap() * root;
-        return seam_price(rest_, flat_.seam) + (border_crossings(rest_, flat_, 1) > 0 ? apart : 0);
+        const double apart = any * root + worth_ * overlap() * rest_.total;
+        return seam_price(rest_, flat_.seam) + chart * root * pieces_between(rest_.facets, flat_.seam).second +
+               (border_crossings(rest_, flat_, 1) > 0 ? apart : 0);
     }
 
     /// The part of the area that lies on other parts of its chart.
@@ -71,9 +75,11 @@ public:
     }
 
     /// The last result, sewn up to another bound.
-    bool adjust(double bound)
+    /// everywhere: charts that lie on themselves are parted, however long the cuts
+    bool adjust(double bound, bool everywhere)
     {
         setting_.bound = bound;
+        setting_.everywhere = setting_.everywhere || everywhere;
         if (flat_.energy > bound)
         {
             const auto fits = [bound](const state& s) { return s.flat.energy <= bound; };
@@ -112,6 +118,7 @@ private:
         if (seam_price(rest_, flat_.seam) > most_loops * std::sqrt(rest_.total)) return false;
         over_cutting more(rest_, setting_.least_weight);
         constexpr int most = 100;
+        const double enough = 4 + setting_.over * (setting_.bound - 4);
         double stop = 0.7;
         for (int turn = 0; turn < 12 && proceed(); ++turn, stop *= 0.8)
         {
@@ -120,7 +127,15 @@ private:
             number_fans(rest_, flat_);
             if (flat_.uv.empty() && !start()) return false;
             relax(rest_, flat_, 60, 1e-4);
-            if (flat_.energy <= 4 + setting_.over * (setting_.bound - 4)) break;
+            if (flat_.energy <= enough) break;
+        }
+        // Corners that few triangles meet in have little curvature for what they distort.
+        for (int turn = 0; turn < 40 && flat_.energy > enough && flat_.energy < infinite && proceed(); ++turn)
+        {
+            if (seam_price(rest_, flat_.seam) > most_loops * std::sqrt(rest_.total)) break;
+            if (cut_strained(rest_, flat_, 0.5 * (flat_.energy - enough)) == 0) break;
+            number_fans(rest_, flat_);
+            relax(rest_, flat_, 60, 1e-4);
         }
         return flat_.energy < infinite;
     }
@@ -155,6 +170,20 @@ private:
         tip_sewing(rest_, flat_, how).run();
     }
 
+    /// The length of seams that could be sewn up for what it costs to keep an overlap apart in the plane, by its area.
+    double worth() const
+    {
+        constexpr double apart = 0.2; // mean energy that an overlap of the whole area would cost, at least
+        constexpr double least = 5, most = 15, part = 0.3;
+        const double root = std::sqrt(rest_.total);
+        const double here = seam_price(rest_, flat_.seam);
+        double lengths = 0; // by mean energy, at the bound
+        for (const state& s : trail_)
+            if (s.flat.energy < flat_.energy - part * (setting_.bound - 4))
+                lengths = (seam_price(rest_, s.flat.seam) - here) / (flat_.energy - s.flat.energy);
+        return std::clamp(apart * lengths, least * root, most * root) / rest_.total;
+    }
+
     /// Keeps a state to come back to.
     void note(const flat_surface& f)
     {
@@ -168,7 +197,7 @@ private:
         constexpr int turns = 3;
         for (int turn = 0; turn < turns && proceed() && border_crossings(rest_, flat_, 1) > 0; ++turn)
         {
-            if (part_charts(rest_, flat_, {}) == 0) break;
+            if (part_charts(rest_, flat_, {.worth = worth_}) == 0) break;
             relax(rest_, flat_, 8, 1e-5);
             parted_ = true;
             trail_.push_back({flat_, parted_});
@@ -183,12 +212,17 @@ private:
         const state was{flat_, parted_};
         const double before = price();
         const auto kept = trail_.size();
-        if (part_charts(rest_, flat_, {.least_area = 0, .most = 400, .at_once = true}) == 0) return;
+        const parting all{.least_area = 0,
+                          .longest = setting_.everywhere ? infinite : parting{}.longest,
+                          .worth = worth_,
+                          .most = 400,
+                          .at_once = true};
+        if (part_charts(rest_, flat_, all) == 0) return;
         relax(rest_, flat_, 8, 1e-5);
         parted_ = true;
         trail_.push_back({flat_, parted_});
         sew(true);
-        if (price() < before) return;
+        if (setting_.everywhere || price() < before) return;
         flat_ = was.flat;
         parted_ = was.parted;
         trail_.erase(trail_.begin() + static_cast<std::ptrdiff_t>(kept), trail_.end());
@@ -199,6 +233,7 @@ private:
     flat_surface flat_;
     std::vector<state> trail_; // within the bound, of ever fewer seams
     bool parted_ = false;
+    double worth_ = 0; // of an overlap, by its area
 };
 
 } // namespace taut::impl

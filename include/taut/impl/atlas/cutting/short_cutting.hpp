@@ -92,15 +92,18 @@ public:
     }
 
     /// Sews up or opens seams for a bound that is larger by `more`.
-    void adjust(double more)
+    /// everywhere: charts that lie on themselves are parted, however long the cuts
+    void adjust(double more, bool everywhere)
     {
         for_each(searches_.size(),
                  [&](std::size_t k)
                  {
                      if (!searches_[k] || !searches_[k]->search) return;
                      piece_search& p = *searches_[k];
+                     // Of few triangles a cut changes much, and may have left more than is needed.
+                     if (more < 0) p.bound = std::min(p.bound, p.search->result().energy);
                      p.bound = std::max(p.bound + more, 4 + 0.8 * (p.bound - 4));
-                     if (p.search->adjust(p.bound)) return;
+                     if (p.search->adjust(p.bound, everywhere && params_.part)) return;
                      auto anew = std::make_unique<seam_search>(*p.rest, p.search->setting());
                      if (anew->run()) p.search = std::move(anew);
                  });
@@ -128,17 +131,7 @@ public:
     }
 
     /// What a seam along each side of the surface counts.
-    std::vector<double> prices() const
-    {
-        std::vector<double> price(facets_.twin.size());
-        for (std::size_t s = 0; s < price.size(); ++s)
-        {
-            const auto [a, b] = side_vertices(mesh_, static_cast<idx>(s));
-            price[s] = glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
-            if (!params_.factors.empty()) price[s] *= params_.factors[s];
-        }
-        return price;
-    }
+    std::vector<double> prices() const { return side_prices(mesh_, facets_, {}, params_.factors); }
 
     /// One flag a triangle of the surface: 1 where no seams were found.
     std::vector<char> unfound() const
@@ -149,6 +142,17 @@ public:
                 for (auto i = u(pieces_.first_cell[k]); i < u(pieces_.first_cell[k + 1]); ++i)
                     result[u(pieces_.cell_origins[i])] = 1;
         return result;
+    }
+
+    /// One flag a side of the surface: 1 where seams stay as they are, since they are given, or were found on the
+    /// surface itself.
+    std::vector<char> settled() const
+    {
+        std::vector<char> stay = flags(params_.seams, facets_.twin.size());
+        for (std::size_t k = 0; k < searches_.size(); ++k)
+            if (searches_[k] && searches_[k]->search && !searches_[k]->coarser)
+                for (std::size_t s = 0; s < 3 * cells(k); ++s) stay[origin(k, s)] = 1;
+        return stay;
     }
 
     /// The seams of the surface, one flag a side.

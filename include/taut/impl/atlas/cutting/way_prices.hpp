@@ -15,6 +15,24 @@
 namespace taut::impl
 {
 
+/// What a seam along each side of a surface counts: its length, times a factor.
+/// together: sides that are to be no seams, or empty; factors: one a side, or empty: 1
+inline std::vector<double> side_prices(const mesh<triangle>& m, const facet_table& f, std::span<const char> together,
+                                       std::span<const double> factors)
+{
+    constexpr double unwanted = 1000; // where a seam is not to be, its length counts so often
+    std::vector<double> price(f.twin.size());
+    for (std::size_t s = 0; s < price.size(); ++s)
+    {
+        const auto& t = m.cells()[s / 3];
+        const auto at = [&](std::size_t k) { return m.points()[static_cast<std::size_t>(t[(s + k) % 3])]; };
+        price[s] = glm::distance(at(1), at(2));
+        if (!factors.empty()) price[s] *= factors[s];
+        if (!together.empty() && together[s]) price[s] *= unwanted;
+    }
+    return price;
+}
+
 /// What a seam along each side of a coarse surface counts: the cheapest way on the surface that it was made of, between
 /// the vertices of the side. Sides without such vertices, in holes, count their length.
 /// sides, price: starting_sides() and one a side of the fine surface m; origins: the vertex there of coarse ones

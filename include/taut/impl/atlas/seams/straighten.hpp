@@ -21,7 +21,7 @@ namespace taut::impl
 /// How far seams may be moved.
 struct straighten_reach
 {
-    double distance = std::numeric_limits<double>::infinity(); ///< along edges, from where an arc was
+    double distance = std::numeric_limits<double>::infinity(); ///< along edges, from where an arc was, and back
     double least_length =
         0.6; ///< of an arc by that before: less than jags are worth is a short cut, and leads elsewhere
 };
@@ -106,7 +106,7 @@ private:
         if (after < (1 - 1e-9) * before)
             for (idx v = to; way.empty() || v != from; v = first_vertex(mesh_, way.back())) way.push_back(came_[u(v)]);
         std::reverse(way.begin(), way.end());
-        const bool gains = !way.empty() && length(way) > reach_.least_length * length(arc);
+        const bool gains = !way.empty() && length(way) > reach_.least_length * length(arc) && stays_near(arc, way);
         if (!gains) way.assign(arc.begin(), arc.end());
         for (const idx v : band_)
         {
@@ -124,6 +124,25 @@ private:
         for (const idx s : arc)
             sum += glm::distance(mesh_.points()[u(first_vertex(mesh_, s))], mesh_.points()[u(end_of(s))]);
         return sum;
+    }
+
+    /// Whether all vertices of an arc lie within reach of a way: one of few long edges would leave out corners.
+    bool stays_near(std::span<const idx> arc, std::span<const idx> way) const
+    {
+        if (!(reach_.distance < infinite)) return true;
+        const auto is_near = [&](idx corner)
+        {
+            const vec3 p = mesh_.points()[u(corner)];
+            return std::any_of(way.begin(), way.end(),
+                               [&](idx s)
+                               {
+                                   const vec3 a = mesh_.points()[u(first_vertex(mesh_, s))];
+                                   const vec3 d = mesh_.points()[u(end_of(s))] - a;
+                                   const double t = glm::dot(p - a, d) / std::max(glm::dot(d, d), 1e-300);
+                                   return glm::distance(p, a + std::clamp(t, 0.0, 1.0) * d) <= reach_.distance;
+                               });
+        };
+        return std::all_of(arc.begin(), arc.end(), [&](idx s) { return is_near(first_vertex(mesh_, s)); });
     }
 
     void set_seam(std::span<const idx> arc, char value)
