@@ -48,8 +48,7 @@ public:
         }
         catch (const nb::cast_error&)
         {
-            throw parameter_error(name, "is " + std::string(nb::repr(*value).c_str()) + ", but must be " +
-                                            wanted<T>());
+            throw parameter_error(name, "is " + std::string(nb::repr(*value).c_str()) + ", but must be " + wanted<T>());
         }
         return true;
     }
