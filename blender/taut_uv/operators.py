@@ -36,19 +36,6 @@ class TAUT_OT_unwrap(Command, bpy.types.Operator):
     resolution: properties.resolution()
     time_limit: properties.time_limit()
 
-    def arguments(self):
-        return dict(
-            energy=self.energy,
-            no_overlap=self.no_overlap,
-            cut=self.cut,
-            weighted=bool(self.weights),
-            pack=self.pack,
-            rotate=self.rotate,
-            padding=self.padding,
-            resolution=self.resolution,
-            time_limit=self.time_limit,
-        )
-
 
 class TAUT_OT_relax(Command, bpy.types.Operator):
     """Make selected faces less distorted where they lie. All other UVs, and pins, stay, bit for bit"""
@@ -70,16 +57,6 @@ class TAUT_OT_relax(Command, bpy.types.Operator):
     no_overlap: properties.no_overlap()
     weights: properties.weights()
     time_limit: properties.time_limit()
-
-    def arguments(self):
-        return dict(
-            axis=self.axis,
-            hold_border=self.hold_border,
-            energy=self.energy,
-            no_overlap=self.no_overlap,
-            weighted=bool(self.weights),
-            time_limit=self.time_limit,
-        )
 
 
 class TAUT_OT_straighten(Command, bpy.types.Operator):
@@ -108,15 +85,6 @@ class TAUT_OT_straighten(Command, bpy.types.Operator):
     energy: properties.energy()
     no_overlap: properties.no_overlap()
     time_limit: properties.time_limit()
-
-    def arguments(self):
-        return dict(
-            axis=self.axis,
-            spacing=self.spacing,
-            energy=self.energy,
-            no_overlap=self.no_overlap,
-            time_limit=self.time_limit,
-        )
 
 
 class TAUT_OT_atlas(Command, bpy.types.Operator):
@@ -161,23 +129,6 @@ class TAUT_OT_atlas(Command, bpy.types.Operator):
     resolution: properties.resolution()
     time_limit: properties.time_limit()
 
-    def arguments(self):
-        return dict(
-            charts=self.charts,
-            prefer=self.prefer,
-            keep_seams=self.keep_seams,
-            mark_seams=self.mark_seams,
-            symmetric=self.symmetric,
-            max_distortion=self.max_distortion,
-            rotate=self.rotate,
-            tiles=self.tiles,
-            density=self.density,
-            weighted=bool(self.weights),
-            padding=self.padding,
-            resolution=self.resolution,
-            time_limit=self.time_limit,
-        )
-
 
 class TAUT_OT_check(Command, bpy.types.Operator):
     """Select faces that are flipped, or overlap others, in the UV map"""
@@ -187,9 +138,6 @@ class TAUT_OT_check(Command, bpy.types.Operator):
 
     flips: BoolProperty(name="Flipped", default=True, description="Select faces that are flipped within their islands")
     overlaps: BoolProperty(name="Overlapping", default=True, description="Select faces that overlap others")
-
-    def arguments(self):
-        return dict(flips=self.flips, overlaps=self.overlaps)
 
 
 class TAUT_OT_stop(bpy.types.Operator):

@@ -46,7 +46,7 @@ def told(operator, reader, result: Result, what: str) -> set:
 
 
 class Command:
-    """Base of operators: `command` is a function of core, `arguments()` its arguments."""
+    """Base of operators: `command` is a function of core, whose arguments are the operator's properties."""
 
     bl_options = {"REGISTER", "UNDO"}
     command = None
@@ -62,7 +62,10 @@ class Command:
         )
 
     def arguments(self) -> dict:
-        return {}
+        given = {name: getattr(self, name) for name in type(self).__annotations__}
+        if "weights" in given:  # the name of a vertex group, which the reader has read
+            given["weighted"] = bool(given.pop("weights"))
+        return given
 
     def read(self, context) -> scene.Reader:
         return scene.Reader(

@@ -108,6 +108,7 @@ class Reader:
             edge=edge,
             next=following,
             triangles=without_flat(V, vertex, triangles, triangle_face),
+            drawn=triangles,
             triangle_face=triangle_face,
             edges=_get(mesh.edges, "vertices", np.int32, 2).astype(np.int64),
             seam=_get(mesh.edges, "use_seam", bool),

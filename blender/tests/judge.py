@@ -80,16 +80,26 @@ def torn(r):
     return {key for key, s in sides.items() if len(s) == 2 and s[0] != s[1]}
 
 
-def flips(r):
-    """Triangles that run against the most of their island, or are flat."""
+def _flipped(r):
+    """Which triangles run against the most of their island, or are flat."""
     s, part = signs(r.tri()), islands(r)[r.of]
     area = np.abs(_areas(r.tri()))
-    bad = 0
+    bad = np.zeros(len(s), bool)
     for k in np.unique(part):
         own = part == k
         way = 1 if (s[own] * area[own]).sum() >= 0 else -1
-        bad += int((s[own] * way <= 0).sum())
+        bad |= own & (s * way <= 0)
     return bad
+
+
+def flips(r):
+    """How many triangles run against the most of their island, or are flat."""
+    return int(_flipped(r).sum())
+
+
+def flipped_polygons(r):
+    """Polygons with such triangles."""
+    return sorted({int(p) for p in r.of[_flipped(r)]})
 
 
 def mirrored(r):
@@ -134,33 +144,42 @@ def _twice(p):
     return sum(p[i][0] * p[(i + 1) % len(p)][1] - p[i][1] * p[(i + 1) % len(p)][0] for i in range(len(p)))
 
 
-def overlaps(*reads):
-    """Pairs of triangles of any of the objects that have an area in common, as pairs of (object, polygon)."""
+def overlaps(*reads, apart=None, among=None):
+    """Pairs of triangles of any of the objects that have an area in common, as pairs of (object, polygon).
+
+    apart : labels of the polygons of one object, such as their islands; pairs with one label are not looked at
+    among : marks of the polygons of one object that are looked at
+    """
     t = np.concatenate([r.tri() for r in reads])
-    of = [(k, int(p)) for k, r in enumerate(reads) for p in r.of]
+    of = np.array([(k, int(p)) for k, r in enumerate(reads) for p in r.of])
+    label = np.arange(len(of)) if apart is None else np.asarray(apart)[of[:, 1]]
     low, high = t.min(1), t.max(1)
     order = np.argsort(low[:, 0])
+    if among is not None:
+        order = order[among[of[order, 1]]]
+    sorted_low = low[order, 0]
     found = set()
     for at, i in enumerate(order):
-        until = np.searchsorted(low[order, 0], high[i, 0])
-        for j in order[at + 1 : until]:
-            if low[j, 1] >= high[i, 1] or low[i, 1] >= high[j, 1] or of[i] == of[j]:
-                continue
-            if not _parted(t[i], t[j]) and common_area(t[i], t[j]) > 0:
-                found.add(tuple(sorted((of[i], of[j]))))
+        near = order[at + 1 : np.searchsorted(sorted_low, high[i, 0])]
+        near = near[(low[near, 1] < high[i, 1]) & (low[i, 1] < high[near, 1]) & (label[near] != label[i])]
+        near = near[(of[near] != of[i]).any(1)]
+        for j in near[~_parted(t[i], t[near])]:
+            if common_area(t[i], t[j]) > 0:
+                found.add(tuple(sorted((tuple(of[i].tolist()), tuple(of[j].tolist())))))
     return found
 
 
-def _parted(p, q):
-    """Whether a side of one surely has the other one beyond it: what most pairs are, so that few are clipped."""
-    for a, b in ((p, q), (q, p)):
-        way = 1 if _areas(a[None])[0] > 0 else -1
+def _parted(p, others):
+    """Of which triangles a side surely has p beyond it, or they are beyond one of p: most, so that few are clipped."""
+    parted = np.zeros(len(others), bool)
+    p = np.broadcast_to(p, others.shape)
+    for a, b in ((p, others), (others, p)):
+        way = np.where(_areas(a) > 0, 1, -1)[:, None]
         for k in range(3):
-            d = a[(k + 1) % 3] - a[k]
-            e = b - a[k]
-            if (way * (d[0] * e[:, 1] - d[1] * e[:, 0]) < -1e-12).all():
-                return True
-    return False
+            d = (a[:, (k + 1) % 3] - a[:, k])[:, None]
+            e = b - a[:, k][:, None]
+            parted |= (way * (d[..., 0] * e[..., 1] - d[..., 1] * e[..., 0]) < -1e-12).all(1)
+    return parted
 
 
 def energy(r, triangles=None):

@@ -17,8 +17,8 @@ class TautConan(ConanFile):
     topics = ("mesh", "parameterization", "uv", "atlas", "opencl", "header-only")
     package_type = "header-library"
     settings = "os", "arch", "compiler", "build_type"
-    options = {"with_gltf": [True, False], "with_eigen": [True, False]}
-    default_options = {"with_gltf": True, "with_eigen": False}
+    options = {"with_gltf": [True, False], "with_eigen": [True, False], "with_compression": [True, False]}
+    default_options = {"with_gltf": True, "with_eigen": False, "with_compression": True}
 
     def layout(self):
         cmake_layout(self, src_folder="src")
@@ -30,6 +30,10 @@ class TautConan(ConanFile):
         self.requires("opencl-icd-loader/2023.12.14")
         if self.options.with_gltf:
             self.requires("nlohmann_json/[>=3.11 <4]")
+        if self.options.with_compression:  # of VTU files
+            self.requires("zlib/[>=1.2.11 <2]")
+            self.requires("xz_utils/[>=5.4 <6]")
+            self.requires("lz4/[>=1.9 <2]")
         if self.options.with_eigen:
             self.requires("eigen/[>=3.4 <4]")
 

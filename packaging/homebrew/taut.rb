@@ -12,14 +12,26 @@ class Taut < Formula
   depends_on "nlohmann-json" => :build
   depends_on "boost"
   depends_on "glm"
+  depends_on "lz4"
   depends_on "opencl-headers"
   depends_on "opencl-icd-loader"
   depends_on "openssl@3"
   depends_on "pocl"
+  depends_on "xz"
+
+  uses_from_macos "zlib"
+
+  # Headers that no formula has.
+  resource "stb" do
+    url "https://taut.example/releases/stb-5736b15.tar.gz"
+    sha256 "0000000000000000000000000000000000000000000000000000000000000000"
+  end
 
   def install
+    (buildpath/"stb").install resource("stb")
     system "cmake", "-S", ".", "-B", "build", *std_cmake_args,
-           "-DTAUT_TESTS=OFF", "-DTAUT_EXAMPLES=OFF", "-DTAUT_BENCH=OFF", "-DTAUT_TOOLS=ON"
+           "-DTAUT_TESTS=OFF", "-DTAUT_EXAMPLES=OFF", "-DTAUT_BENCH=OFF", "-DTAUT_TOOLS=ON",
+           "-DTAUT_STB_INCLUDE=#{buildpath}/stb"
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"
     pkgshare.install "examples/unwrap.cpp"

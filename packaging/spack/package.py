@@ -22,7 +22,11 @@ class Taut(CMakePackage):
         depends_on("cli11", type="build")
         depends_on("nlohmann-json", type="build")
         depends_on("eigen@3.4:", type="build")
+        depends_on("stb", type="build")
         depends_on("openssl")
+        depends_on("zlib-api")
+        depends_on("xz")
+        depends_on("lz4")
 
     def cmake_args(self):
         return [

@@ -2,6 +2,7 @@
 // Atlases of surfaces.
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <taut/atlas.hpp>
@@ -29,7 +30,8 @@ struct atlas_job
 {
     std::vector<vec3> points;
     std::vector<std::array<idx, 3>> triangles;
-    std::vector<std::array<idx, 2>> seam_edges;
+    std::vector<std::array<idx, 2>> seam_edges, weighted_edges;
+    std::vector<double> edge_weights;           ///< of weighted_edges
     std::vector<idx> parts, polygons;           ///< labels of triangles, or none
     std::vector<std::array<vec2, 3>> corner_uv; ///< of triangles, or none
     std::vector<char> pinned;                   ///< triangles, or none
@@ -40,6 +42,7 @@ struct atlas_job
     std::optional<repaired_surface> repaired;
     std::optional<mesh<triangle>> whole;
     std::vector<char> seams, together;
+    std::vector<double> weights; ///< of sides, or none
     std::shared_ptr<queue> queue_in_use;
 
     const mesh<triangle>& surface() const { return repaired ? repaired->surface : *whole; }
@@ -62,6 +65,7 @@ struct atlas_job
         else
             whole.emplace(points, triangles);
         mark_sides();
+        weigh_sides();
         take_corners();
         queue_in_use = borrow_queue(device);
         return make_atlas(*queue_in_use, surface(), params);
@@ -75,7 +79,7 @@ private:
         const auto& m = surface();
         const auto f = facets(m);
         std::set<std::array<idx, 2>> wanted;
-        for (auto e : seam_edges) wanted.insert({std::min(e[0], e[1]), std::max(e[0], e[1])});
+        for (const auto& e : seam_edges) wanted.insert(ordered(e[0], e[1]));
         seams.assign(f.twin.size(), 0);
         together.assign(f.twin.size(), 0);
         for (std::size_t s = 0; s < f.twin.size(); ++s)
@@ -85,14 +89,34 @@ private:
             if (!wanted.empty())
             {
                 const auto e = impl::side_vertices(m, static_cast<idx>(s));
-                const idx a = vertex_origin(e[0]), b = vertex_origin(e[1]);
-                seams[s] = wanted.contains({std::min(a, b), std::max(a, b)});
+                seams[s] = wanted.contains(ordered(vertex_origin(e[0]), vertex_origin(e[1])));
             }
             if (!parts.empty() && parts[here] != parts[there]) seams[s] = 1;
             if (!polygons.empty() && polygons[here] == polygons[there]) together[s] = 1;
         }
         params.charts.seams = seams;
         if (!polygons.empty()) params.charts.together = together;
+    }
+
+    /// Two vertices of the user, the smaller one first.
+    static std::array<idx, 2> ordered(idx a, idx b) { return {std::min(a, b), std::max(a, b)}; }
+
+    /// Factors of the lengths of seams, by side; 1 where none is given.
+    void weigh_sides()
+    {
+        if (weighted_edges.empty()) return;
+        std::map<std::array<idx, 2>, double> of_edge;
+        for (std::size_t i = 0; i < weighted_edges.size(); ++i)
+            of_edge[ordered(weighted_edges[i][0], weighted_edges[i][1])] = edge_weights[i];
+        const auto& m = surface();
+        weights.assign(3 * m.cells().size(), 1);
+        for (std::size_t s = 0; s < weights.size(); ++s)
+        {
+            const auto e = impl::side_vertices(m, static_cast<idx>(s));
+            const auto found = of_edge.find(ordered(vertex_origin(e[0]), vertex_origin(e[1])));
+            if (found != of_edge.end()) weights[s] = found->second;
+        }
+        params.wishes.weights = weights;
     }
 
     /// Coordinates and pins of corners, for the triangles that are left.
@@ -124,6 +148,8 @@ nb::dict report_of(const atlas_report& r)
     d["overlaps"] = r.overlaps;
     d["distortion"] = r.distortion;
     d["worst"] = r.worst;
+    d["stretch_l2"] = r.stretch_l2;
+    d["stretch_linf"] = r.stretch_linf;
     d["utilization"] = r.utilization;
     d["seam_length"] = r.seam_length;
     d["least_distance"] = r.least_distance;
@@ -200,6 +226,8 @@ nb::object make(const array& V, const array& F, const nb::dict& keywords, const 
     job->points = places_of(V, "V");
     job->triangles = cells_of<3>(F, "F");
     if (const auto a = given.rows("seams")) job->seam_edges = cells_of<2>(*a, "seams");
+    if (const auto a = given.rows("weighted_edges")) job->weighted_edges = cells_of<2>(*a, "seam_weights");
+    if (const auto a = given.rows("edge_weights")) job->edge_weights = numbers_of(*a);
     if (const auto a = given.rows("parts")) job->parts = ids_of(*a);
     if (const auto a = given.rows("polygons")) job->polygons = ids_of(*a);
     if (const auto a = given.rows("corner_uv"))

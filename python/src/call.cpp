@@ -21,6 +21,10 @@ namespace
 using clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
+/// Between looks for signals, for which other threads of Python have to give up the interpreter's lock: on processors
+/// that are busy they get it back late.
+constexpr auto interval_of_looks = 80ms;
+
 /// What the worker tells the thread that waits.
 struct handover
 {
@@ -187,8 +191,14 @@ ending run_work(const std::shared_ptr<control>& watched, nb::handle progress, st
     {
         {
             nb::gil_scoped_release unlocked;
+            const auto next = clock::now() + interval_of_looks;
             std::unique_lock lock(state->mutex);
-            done = state->changed.wait_for(lock, 30ms, [&] { return state->done; });
+            // A cancellation is seen without the interpreter's lock.
+            for (bool wanted = false; !done && !wanted && clock::now() < next;)
+            {
+                done = state->changed.wait_for(lock, 20ms, [&] { return state->done; });
+                wanted = watched->cancelled() && watching.how == ending::finished;
+            }
         }
         if (!done) watching.look();
         if (!done && watching.late())

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -47,7 +48,7 @@ public:
         }
         catch (const nb::cast_error&)
         {
-            throw parameter_error(name, "has a value of another type than is needed");
+            throw parameter_error(name, "is " + std::string(nb::repr(*value).c_str()) + ", but must be " + wanted<T>());
         }
         return true;
     }
@@ -88,6 +89,22 @@ public:
     {
         double seconds = into.count();
         if (read(name, seconds)) into = std::chrono::duration<double>(seconds);
+    }
+
+    /// What a value of a type is, for messages.
+    template <class T>
+    static const char* wanted()
+    {
+        if constexpr (std::is_same_v<T, bool>)
+            return "True or False";
+        else if constexpr (std::is_integral_v<T>)
+            return "a whole number";
+        else if constexpr (std::is_floating_point_v<T>)
+            return "a number";
+        else if constexpr (std::is_same_v<T, std::string>)
+            return "a string";
+        else
+            return "an array of numbers";
     }
 
     nb::object progress() const

@@ -32,6 +32,10 @@ def _corner_uv(name: str, value: Any, faces: Any, vertices: int) -> Any:
 _TUNING = ("least_fill", "cut_rounds", "unite_rounds")
 
 
+#: Names of the library that are others here.
+_NAMES = {"hide": "hide_seams", "weights": "seam_weights", "initial": "uv", "corner_uv": "uv"}
+
+
 @overload
 def atlas(V: ArrayLike, F: ArrayLike, **options: Any) -> Atlas: ...
 @overload
@@ -47,6 +51,7 @@ def atlas(
     charts: str = "auto",
     prefer: str = "seams",
     seams: ArrayLike = None,
+    seam_weights: ArrayLike = None,
     parts: ArrayLike = None,
     pinned: ArrayLike = None,
     symmetric: bool = False,
@@ -54,6 +59,7 @@ def atlas(
     crease_angle: float = 180,
     max_distortion: float | None = None,
     mean_distortion: float | None = None,
+    max_stretch: float | None = None,
     resolution: int = 1024,
     padding: float = 2,
     tiles: int = 1,
@@ -90,6 +96,8 @@ def atlas(
         Few charts along short seams; more charts that fill squares well; or one chart a component, where it can be.
     seams : (k, 2) array-like of int, optional
         Edges that are seams in any case.
+    seam_weights : (k, 3) array-like, optional
+        Two vertices of an edge, and a factor of its length, 0.001 to 1000: where seams cost more, or less.
     parts : (m,) array-like of int, optional
         Labels; a seam leads between triangles of different ones.
     pinned : (m,) array-like of bool, optional
@@ -100,6 +108,9 @@ def atlas(
         How much seams avoid what is seen from outside, 0 to 1; edges bent by more than this, in degrees, are liked.
     max_distortion, mean_distortion : float, optional
         Bounds of the isometric energy of a chart and of the whole, above 4.
+    max_stretch : float, optional
+        The bound of the whole in other words: its L2 stretch (Sander et al. 2001), above 1; 1.02: texels are 2 % too
+        coarse in the mean. Instead of the two bounds before; see `report["stretch_l2"]`.
     resolution, padding, tiles, rotate, densities
         Texels along a tile; least distance of charts in texels; how many tiles; whether charts are turned; a factor of
         lengths for each chart.
@@ -139,11 +150,12 @@ def atlas(
                         texels_per_unit=texels_per_unit, max_resolution=max_resolution, align=align, stack=stack,
                         hide_seams=hide_seams, crease_angle=crease_angle,
                         rotate=rotate, repair=repair, max_distortion=max_distortion,
-                        mean_distortion=mean_distortion, weld=weld, single=single,
+                        mean_distortion=mean_distortion, max_stretch=max_stretch, weld=weld, single=single,
                         time_limit=time_limit, progress=progress, device=device, **more)
     points = _arrays.points("V", V, (2, 3), nan=True) if repair else _arrays.points("V", V, (2, 3))
     faces = _arrays.indices("F", F, (3,), len(points))
     m = len(faces)
+    _require_fitting(charts, uv, pinned, resolution)
     options: dict[str, Any] = {
         "charts": charts,
         "prefer": prefer,
@@ -151,7 +163,7 @@ def atlas(
         "hide_seams": hide_seams,
         "crease_angle": crease_angle,
         "max_distortion": max_distortion,
-        "mean_distortion": mean_distortion,
+        "mean_distortion": _mean_bound(max_distortion, mean_distortion, max_stretch),
         "resolution": resolution,
         "padding": padding,
         "tiles": tiles,
@@ -174,13 +186,73 @@ def atlas(
         options["parts"] = _arrays.numbers("parts", parts, m)
     if seams is not None:
         options["seams"] = _arrays.indices("seams", seams, (2,), len(points))
+    if seam_weights is not None:
+        options["weighted_edges"], options["edge_weights"] = _weighted_edges(seam_weights, faces, len(points))
     if uv is not None:
         options["corner_uv"] = _corner_uv("uv", uv, faces, len(points))
     if pinned is not None:
         options["pinned"] = _arrays.numbers("pinned", pinned, m)
     if densities is not None:
         options["densities"] = _arrays.numbers("densities", densities)
-    return call(native().atlas, points, faces, options, progress=progress, make=Atlas.of)
+    return call(native().atlas, points, faces, options, progress=progress, make=Atlas.of, names=_NAMES)
+
+
+def _require_fitting(charts: str, uv: Any, pinned: Any, resolution: Any) -> None:
+    """Raises `ParameterError` for arguments that do not fit together."""
+    if charts == "pack" and uv is None:
+        raise ParameterError('uv: is not given, but charts="pack" packs charts as they lie in it', field="uv")
+    if pinned is not None and uv is None:
+        raise ParameterError("uv: is not given, but `pinned` triangles stay where it has them", field="uv")
+    if isinstance(resolution, (tuple, list, np.ndarray)) and np.ndim(resolution):
+        raise ParameterError(
+            f"resolution: is {resolution}, but must be one number, the texels along the width of a tile; `aspect` is "
+            "its height by its width",
+            field="resolution",
+        )
+
+
+def _mean_bound(max_distortion: Any, mean_distortion: Any, max_stretch: Any) -> Any:
+    """The bound of the mean distortion, given as such or as a stretch.
+
+    At the scale that keeps the area the mean of s1^2 + s2^2 is 2 at least, so that twice the square of the stretch is
+    at most the energy less 2.
+    """
+    if max_stretch is None:
+        return mean_distortion
+    if max_distortion is not None or mean_distortion is not None:
+        raise ParameterError(
+            "max_stretch: is a bound of the mean distortion; leave out max_distortion and mean_distortion",
+            field="max_stretch",
+        )
+    if not 1 < max_stretch < np.inf:
+        raise ParameterError(
+            f"max_stretch: is {max_stretch}, but must be above 1, that of no stretch", field="max_stretch"
+        )
+    return 2 + 2 * max_stretch * max_stretch
+
+
+def _weighted_edges(rows: Any, faces: Any, vertices: int) -> tuple[Any, Any]:
+    """Edges and the factors of their lengths. Raises `ParameterError` for what is no edge."""
+    name = "seam_weights"
+    rows = _arrays.points(name, rows, (3,))
+    edges = _arrays.indices(name, rows[:, :2], (2,), vertices)
+    factors = rows[:, 2].astype(np.float64)
+    bad = np.flatnonzero(~((factors >= 1e-3) & (factors <= 1e3)))
+    if len(bad):
+        raise ParameterError(
+            f"{name}: row {bad[0]} has the factor {factors[bad[0]]:g}, but they go from 0.001 to 1000",
+            field=name, ids=[bad[0]],
+        )
+    F = np.asarray(faces, dtype=np.int64)
+    known = np.sort(np.stack([F, np.roll(F, -1, 1)], 2).reshape(-1, 2), 1)
+    a = np.sort(edges.astype(np.int64), 1)
+    missing = np.flatnonzero(~np.isin(a[:, 0] * vertices + a[:, 1], known[:, 0] * vertices + known[:, 1]))
+    if len(missing):
+        i, j = edges[missing[0]]
+        raise ParameterError(
+            f"{name}: row {missing[0]} names the vertices {i} and {j}, which no edge joins", field=name, ids=[i, j]
+        )
+    return edges, factors
 
 
 def _several(meshes: Any, **options: Any) -> list[Atlas]:

@@ -11,8 +11,14 @@ from numpy.typing import NDArray
 
 from . import _arrays
 from ._arrays import ArrayLike
+from ._call import named
 from ._native import native
 from .errors import ParameterError
+
+
+#: What the library calls arguments.
+_NAMES = {"old": "image", "from": "old_uv", "to": "new_uv", "width": "size", "height": "size", "new_width": "size",
+          "new_height": "size", "channels": "image"}
 
 
 def _corners(name: str, uv: ArrayLike) -> NDArray[Any]:
@@ -64,7 +70,11 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
                                "channels": old.shape[2] if old.ndim == 3 else 1, "filter": filter, "wrap": wrap,
                                "samples": int(samples), "gutter": math.inf if gutter is None else float(gutter)}
     if size is not None:
-        width, height = (size, size) if isinstance(size, int) else map(int, size)
+        try:
+            width, height = map(int, (size, size) if np.ndim(size) == 0 else size)
+        except (TypeError, ValueError):
+            raise ParameterError(f"size: is {size!r}, but must be one number of texels, or (width, height)",
+                                 field="size") from None
         if width < 1 or height < 1:
             raise ParameterError(f"size: is {width} x {height}, but both must be positive", field="size")
         options["new_width"], options["new_height"] = width, height
@@ -75,6 +85,7 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
     if len(corners[0]) != len(corners[1]):
         raise ParameterError(f"new_uv: has {len(corners[1]) // 3} triangles, but old_uv has {len(corners[0]) // 3}; "
                              "give each in both", field="new_uv")
-    texels, _, width, height = native().bake(rows, *corners, options)
+    with named(_NAMES):
+        texels, _, width, height = native().bake(rows, *corners, options)
     made: NDArray[np.float64] = texels.reshape((height, width, *old.shape[2:]))[::-1]
     return made

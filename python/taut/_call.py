@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, TypeVar, Union
 
 from ._native import native
-from .errors import Cancelled, Interrupted, NoMap
+from .errors import Cancelled, Interrupted, NoMap, ParameterError
 
 T = TypeVar("T")
 
@@ -64,16 +64,42 @@ class _Line:
             sys.stderr.flush()
 
 
-def call(function: Callable[..., Any], *args: Any, progress: ProgressLike, make: Callable[[dict[str, Any]], T]) -> T:
+@contextmanager
+def named(names: Mapping[str, str]) -> Iterator[None]:
+    """Errors of arguments speak of these as Python has them.
+
+    names : what the library calls them, and what the call does; others have the same name in both
+    """
+    try:
+        yield
+    except ParameterError as e:
+        begin = f"parameter {e.field}: "
+        if not str(e).startswith(begin):
+            raise
+        name, what = names.get(str(e.field), str(e.field)), str(e)[len(begin) :]
+        for old, new in names.items():
+            what = what.replace(f"`{old}`", f"`{new}`")
+        raise ParameterError(f"{name}: {what}", field=name) from None
+
+
+def call(
+    function: Callable[..., Any],
+    *args: Any,
+    progress: ProgressLike,
+    make: Callable[[dict[str, Any]], T],
+    names: Mapping[str, str] | None = None,
+) -> T:
     """Calls the library with `args` and a dict of options as the last of them, which gets `progress`.
 
     make : turns what the library returns into a result; raises `NoMap` where it is none.
+    names : as of `named()`
     """
     line = _Line() if progress is True else None
     options = args[-1]
     options["progress"] = line if progress is True else progress or None
     try:
-        ended, found = function(*args, control())
+        with named(names or {}):
+            ended, found = function(*args, control())
     finally:
         if line is not None:
             line.close()

@@ -117,3 +117,48 @@ def test_copies_lie_on_each_other(torus):
     a, b = both.corner_uv[: len(F)], both.corner_uv[len(F) :]
     assert both.report["stacked"] * 2 == both.charts
     assert {tuple(map(tuple, t)) for t in np.sort(a, axis=1)} == {tuple(map(tuple, t)) for t in np.sort(b, axis=1)}
+
+
+def test_arguments_that_do_not_fit_are_named_as_they_are_in_python(torus):
+    V, F = torus
+    for wrong, field, says in (
+        (dict(hide_seams=2), "hide_seams", "hide_seams: must be 0 to 1"),
+        (dict(resolution=(512, 256)), "resolution", "must be one number"),
+        (dict(padding="wide"), "padding", "padding: is 'wide', but must be a number"),
+        (dict(symmetric="yes"), "symmetric", "must be True or False"),
+        (dict(charts="pack"), "uv", 'charts="pack" packs charts as they lie in it'),
+        (dict(pinned=np.zeros(len(F), bool)), "uv", "uv: is not given"),
+        (dict(max_stretch=1.0), "max_stretch", "above 1"),
+        (dict(max_stretch=1.1, mean_distortion=4.5), "max_stretch", "leave out"),
+        (dict(seam_weights=[[0, len(V) // 2 + 3, 5.0]]), "seam_weights", "no edge joins"),
+        (dict(seam_weights=[[F[0][0], F[0][1], 0]]), "seam_weights", "row 0 has the factor 0"),
+    ):
+        with pytest.raises(taut.ParameterError) as caught:
+            taut.atlas(V, F, **wrong)
+        assert caught.value.field == field and says in str(caught.value), str(caught.value)
+        assert "parameter" not in str(caught.value)
+
+
+def test_a_stretch_bounds_the_whole(torus):
+    V, F = torus
+    made = taut.atlas(V, F, max_stretch=1.01)
+    assert 1 <= made.report["stretch_l2"] <= 1.01 and made.report["stretch_linf"] >= made.report["stretch_l2"]
+    assert taut.atlas(V, F, max_stretch=1.2).charts <= made.charts
+
+
+def test_seams_avoid_edges_that_weigh_much(torus):
+    V, F = np.asarray(torus[0]), np.asarray(torus[1])
+    ends = np.unique(np.sort(np.stack([F, np.roll(F, -1, 1)], 2).reshape(-1, 2), 1), axis=0)
+    here = V[ends].mean(1)[:, 0] > 0
+
+    def length_there(made):
+        flat = made.vmapping[made.faces]
+        sides = np.sort(np.stack([made.faces, np.roll(made.faces, -1, 1)], 2).reshape(-1, 2), 1)
+        _, first, count = np.unique(sides, axis=0, return_index=True, return_counts=True)
+        cut = np.stack([flat, np.roll(flat, -1, 1)], 2).reshape(-1, 2)[first[count == 1]]
+        p = V[cut]
+        return np.linalg.norm(p[:, 0] - p[:, 1], axis=1)[p[:, :, 0].mean(1) > 0].sum()
+
+    heavy = taut.atlas(V, F, seam_weights=np.c_[ends, np.where(here, 50.0, 1.0)])
+    light = taut.atlas(V, F, seam_weights=np.c_[ends, np.where(here, 1.0, 50.0)])
+    assert length_there(heavy) < length_there(light)

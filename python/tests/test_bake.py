@@ -42,3 +42,22 @@ def test_what_does_not_fit_is_refused(torus):
         taut.bake(np.zeros((4, 4)), uv, uv, size=(0, 5))
     with pytest.raises(taut.ParameterError, match="new_uv: has"):
         taut.bake(np.zeros((4, 4)), uv, uv[:-1])
+
+
+def test_errors_name_arguments_of_python(torus):
+    V, F = torus
+    uv = taut.atlas(V, F).corner_uv
+    image = np.zeros((4, 4))
+    for arguments, options, field in (
+        ((np.zeros((4, 4, 5)), uv, uv), {}, "image"),
+        ((np.zeros((0, 4)), uv, uv), {}, "image"),
+        ((image, uv, uv), dict(size=100000), "size"),
+        ((image, uv, uv), dict(size="large"), "size"),
+        ((image, uv, uv), dict(samples=0), "samples"),
+        ((image, uv, uv), dict(gutter=-1), "gutter"),
+        ((image, uv, uv), dict(wrap="mirror"), "wrap"),
+        ((image, uv, uv[:-1]), {}, "new_uv"),
+    ):
+        with pytest.raises(taut.ParameterError) as caught:
+            taut.bake(*arguments, **options)
+        assert caught.value.field == field and str(caught.value).startswith(f"{field}: "), str(caught.value)

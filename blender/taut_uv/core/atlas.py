@@ -8,7 +8,9 @@ import numpy as np
 from .islands import islands_of
 from .layout import Layout
 from .messages import Trouble, about_faces, about_vertices
+from .placing import CUT_FLAT
 from .plane import in_single, orientation
+from .polygons import tell_concave
 from .surface import Surface
 from .unwrap import torn_edges
 from .work import Clock, Result, untold
@@ -77,6 +79,7 @@ def atlas(
     if density > 0:
         layout.to_density(density)
     place = write_atlas(s, result, made, layout, some)
+    tell_concave(s, result)
     if mark_seams:
         inside = np.zeros(len(s.edges), bool)
         inside[s.edge[s.chosen[s.face]]] = True
@@ -167,11 +170,16 @@ def _explained(error, s: Surface, some: np.ndarray, used: np.ndarray) -> Trouble
 def write_atlas(s: Surface, result: Result, made, layout: Layout, some: np.ndarray) -> np.ndarray:
     """Writes coordinates by corner; what is wrong with faces is a problem. The atlas's vertex of each corner, or -1."""
     own = made.chart >= 0
-    uv, flat = in_single(layout.uv, layout.faces[own])
-    if len(flat):
-        what = "too small for the numbers of UV maps; dissolve what is so small"
-        result.problems.append(about_faces(s, s.triangle_face[some[np.flatnonzero(own)[flat]]], what))
     place, divided = places_of_corners(s, made, layout, some)
+    other, of = drawn_otherwise(s, place, some, own, divided)
+    uv, flat = in_single(layout.uv, np.concatenate([layout.faces[own], other]))
+    faces = np.concatenate([s.triangle_face[some[own]], of])
+    for these, what in (
+        (flat[flat < own.sum()], "too small for the numbers of UV maps; dissolve what is so small"),
+        (flat[flat >= own.sum()], CUT_FLAT),
+    ):
+        if len(these):
+            result.problems.append(about_faces(s, faces[these], what))
     if len(divided):
         what = "seams or repairs divide it, and a part of it lies in one point; triangulate it (Ctrl T) and try again"
         result.problems.append(about_faces(s, divided, what))
@@ -183,6 +191,14 @@ def write_atlas(s: Surface, result: Result, made, layout: Layout, some: np.ndarr
         what = "left out of the atlas, as it makes no surface; delete it, or Mesh > Clean Up > Degenerate Dissolve"
         result.problems.append(about_faces(s, lost, what))
     return place
+
+
+def drawn_otherwise(s: Surface, place: np.ndarray, some: np.ndarray, own: np.ndarray, divided: np.ndarray):
+    """Triangles that Blender cuts faces into and the atlas has not, of the atlas's vertices, and their faces; but for
+    faces that are divided or left out."""
+    there = ~np.isin(s.triangle_face[some], np.r_[divided, s.triangle_face[some[~own]]])
+    other = some[there & (s.drawn[some] != s.triangles[some]).any(1)]
+    return place[s.drawn[other]], s.triangle_face[other]
 
 
 def places_of_corners(s: Surface, made, layout: Layout, some: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

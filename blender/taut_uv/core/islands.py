@@ -39,6 +39,13 @@ class Island:
         """Values of the surface's corners by the island's vertex, such as texture coordinates."""
         return values[self.first]
 
+    def drawn_otherwise(self, s: Surface) -> tuple[np.ndarray, np.ndarray]:
+        """Triangles that Blender cuts faces into and the island has not, of the island's vertices, and their faces."""
+        other = self.triangles[(s.drawn[self.triangles] != s.triangles[self.triangles]).any(1)]
+        local = np.zeros(s.corners, np.int64)
+        local[self.corners] = self.local
+        return local[s.drawn[other]], s.triangle_face[other]
+
     def any_corner(self, flags: np.ndarray) -> np.ndarray:
         """Which vertices of the island have a corner that is marked."""
         marked = np.zeros(len(self.V), bool)

@@ -11,6 +11,9 @@ from .plane import in_single, mirrored, signed_areas
 from .surface import Surface
 from .work import Clock, Result
 
+#: Of faces that are drawn by triangles without an area, which the map could not make good.
+CUT_FLAT = "a straight corner, at which Blender cuts off a triangle without an area; triangulate the face (Ctrl T)"
+
 
 def pack_islands(taut, result: Result, placed, loose, padding: float, resolution: int, rotate: bool, clock: Clock):
     """Maps of the loose islands, packed into the unit square around those that are placed, where these lie in it."""
@@ -52,18 +55,22 @@ def side_by_side(loose):
 
 
 def write_island(s: Surface, result: Result, island: Island, x: np.ndarray, fixed: np.ndarray) -> Problem | None:
-    """Writes the map of an island as single precision holds it. Triangles that this flattens are a problem."""
+    """Writes the map of an island as single precision holds it. Triangles that this flattens are a problem, and so are
+    those of Blender where it cuts a face in another way."""
+    other, faces = island.drawn_otherwise(s)
+    F = np.concatenate([island.F, other])
+    faces = np.concatenate([s.triangle_face[island.triangles], faces])
     if signed_areas(x, island.F).sum() < 0:  # pins may mirror an island
-        y, flat = in_single(mirrored(x), island.F, fixed)
+        y, flat = in_single(mirrored(x), F, fixed)
         y = mirrored(y)
     else:
-        y, flat = in_single(x, island.F, fixed)
+        y, flat = in_single(x, F, fixed)
     result.uv[island.corners] = y[island.local]
     result.changed[island.corners] = True
     if len(flat) == 0:
         return None
+    if flat[0] >= len(island.F):
+        return about_faces(s, faces[flat], CUT_FLAT)
     return about_faces(
-        s,
-        s.triangle_face[island.triangles[flat]],
-        "too small for the numbers of UV maps; scale the island up, or dissolve what is so small",
+        s, faces[flat], "too small for the numbers of UV maps; scale the island up, or dissolve what is so small"
     )

@@ -58,14 +58,15 @@ def mirrored(x: np.ndarray) -> np.ndarray:
     return x * np.array([-1.0, 1.0])
 
 
-_AROUND = [(i, j) for r in (1, 2, 4) for i in (-r, 0, r) for j in (-r, 0, r) if (i, j) != (0, 0)]
+_RADII = (1, 2, 4, 16, 64, 256)
 
 
 def in_single(x: np.ndarray, F: np.ndarray, fixed: np.ndarray | None = None) -> tuple[np.ndarray, np.ndarray]:
     """Points as float32 holds them, and the triangles that are flat or flipped then.
 
-    Where rounding flattens a triangle, its vertices are moved by a few units of these numbers, where that helps: to the
-    place where the smallest area around them is largest. fixed : (n, 2) bool, coordinates that stay.
+    Where a triangle is so, its vertices are moved by a few units of these numbers, where that helps: to the nearest
+    place at which all areas around them are positive, or else to the one at which the smallest is largest. fixed :
+    (n, 2) bool, coordinates that stay.
     """
     fixed = np.zeros(x.shape, bool) if fixed is None else fixed
     y = x.astype(np.float32).astype(np.float64)
@@ -83,15 +84,18 @@ def in_single(x: np.ndarray, F: np.ndarray, fixed: np.ndarray | None = None) -> 
 
 def _improve(y: np.ndarray, F: np.ndarray, v: int, fixed: np.ndarray) -> bool:
     """Moves a vertex by some units where the smallest area around it grows."""
-    if fixed.all():
-        return False
     star = F[(F == v).any(1)]
-    unit = np.spacing(np.abs(y[v]).astype(np.float32)).astype(np.float64)
     best, place, here = signed_areas(y, star).min(), None, y[v].copy()
-    for step in _AROUND:
-        y[v] = (here + np.where(fixed, 0, step) * unit).astype(np.float32)
-        least = signed_areas(y, star).min()
-        if least > best:
-            best, place = least, y[v].copy()
+    if fixed.all() or best > 0:
+        return False
+    unit = np.spacing(np.abs(here).astype(np.float32)).astype(np.float64)
+    for r in _RADII:
+        for step in ((i, j) for i in (-r, 0, r) for j in (-r, 0, r) if (i, j) != (0, 0)):
+            y[v] = (here + np.where(fixed, 0, step) * unit).astype(np.float32)
+            least = signed_areas(y, star).min()
+            if least > best:
+                best, place = least, y[v].copy()
+        if best > 0:
+            break
     y[v] = here if place is None else place
     return place is not None

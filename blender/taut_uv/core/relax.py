@@ -9,6 +9,7 @@ from .islands import Island, islands_of, joined_corners, roots
 from .messages import Trouble, about_faces, explained
 from .placing import write_island
 from .plane import areas, mirrored, rigid_fit, signed_areas
+from .polygons import tell_concave
 from .surface import Surface
 from .unwrap import triangle_weights
 from .work import Clock, Result, untold
@@ -53,45 +54,43 @@ def relax(
             held |= open_border(s, island)
         if held.all():
             continue
-        try:
-            x, fixed, complete = relaxed(
-                taut,
-                s,
-                island,
-                held,
-                axis,
-                sizes[island.faces[0]],
-                clock,
-                energy=energy,
-                no_overlap=no_overlap,
-                weighted=weighted,
-            )
-        except Trouble as e:
-            result.problems.append(e.problem)
-            continue
-        except taut.Cancelled:
-            result.complete = False
-            break
-        except taut.TautError as e:
-            if getattr(e, "fault", None) == "stopped":
-                result.complete = False
-                break
-            result.problems.append(explained(e, s, island))
-            continue
-        moved += 1
-        problem = write_island(s, result, island, x, fixed)
-        if problem:
-            result.problems.append(problem)
-        if not complete:
-            result.complete = False
+        size = sizes[island.faces[0]]
+        given = dict(energy=energy, no_overlap=no_overlap, weighted=weighted)
+        done = rewritten(
+            taut, s, result, island, lambda: relaxed(taut, s, island, held, axis, size, clock, **given)
+        )
+        moved += done
+        if not result.complete:
             break
     if not moved and not result.problems and result.complete:
         raise Trouble(
             "all corners of the selected faces are held: by faces beside them that are not selected, or by pins; "
             "select more faces, or clear pins (Alt P)"
         )
+    tell_concave(s, result)
     result.numbers["islands"] = moved
     return result
+
+
+def rewritten(taut, s: Surface, result: Result, island: Island, make) -> bool:
+    """Writes what make() makes of an island: its map, which coordinates are fixed, whether it ended by itself. What it
+    raises is a problem of the result, and a stop leaves it incomplete. Whether there was a map."""
+    try:
+        x, fixed, complete = make()
+    except Trouble as e:
+        result.problems.append(e.problem)
+        return False
+    except (taut.Cancelled, taut.TautError) as e:
+        if isinstance(e, taut.Cancelled) or getattr(e, "fault", None) == "stopped":
+            result.complete = False
+        else:
+            result.problems.append(explained(e, s, island))
+        return False
+    problem = write_island(s, result, island, x, fixed)
+    if problem:
+        result.problems.append(problem)
+    result.complete = result.complete and complete
+    return True
 
 
 def _spread(place: np.ndarray, flags: np.ndarray) -> np.ndarray:

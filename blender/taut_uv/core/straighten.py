@@ -6,9 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from .islands import Island, islands_of
-from .messages import Trouble, about_vertices, explained, listed
-from .placing import write_island
-from .relax import island_scales, relaxed
+from .messages import Trouble, about_vertices, listed
+from .relax import island_scales, relaxed, rewritten
 from .surface import Surface
 from .work import Clock, Result, untold
 
@@ -41,39 +40,20 @@ def straighten(
         if len(ends) == 0:
             continue
         tell(f"line {lines + 1}")
-        try:
+        made: list[np.ndarray] = []
+
+        def make():
             paths = paths_of(s, island, ends)
             pins, held = pins_of_paths(s, island, paths, axis, spacing)
-            x, fixed, complete = relaxed(
-                taut,
-                s,
-                island,
-                held,
-                "both",
-                sizes[island.faces[0]],
-                clock,
-                energy=energy,
-                no_overlap=no_overlap,
-                pins=pins,
+            made.extend(paths)
+            size = sizes[island.faces[0]]
+            return relaxed(
+                taut, s, island, held, "both", size, clock, energy=energy, no_overlap=no_overlap, pins=pins
             )
-        except Trouble as e:
-            result.problems.append(e.problem)
-            continue
-        except taut.Cancelled:
-            result.complete = False
-            break
-        except taut.TautError as e:
-            if getattr(e, "fault", None) == "stopped":
-                result.complete = False
-                break
-            result.problems.append(explained(e, s, island))
-            continue
-        lines += len(paths)
-        problem = write_island(s, result, island, x, fixed)
-        if problem:
-            result.problems.append(problem)
-        if not complete:
-            result.complete = False
+
+        if rewritten(taut, s, result, island, make):
+            lines += len(made)
+        if not result.complete:
             break
     result.numbers["lines"] = lines
     return result

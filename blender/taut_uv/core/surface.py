@@ -21,7 +21,8 @@ class Surface:
     vertex, face, edge, next : (c,) int64
         Of each corner: its vertex, its face, the edge that leads to the next corner, and that corner.
     triangles : (m, 3) int64
-        Corners of the triangles that faces are cut into; triangle_face, (m,), says of which face each is.
+        Corners of the triangles that faces are cut into; triangle_face, (m,), says of which face each is. drawn,
+        (m, 3): those that Blender cuts faces into, which may be others of the same face.
     edges : (e, 2) int64
         Ends of edges; seam, (e,), marks seams.
     uv : (c, 2) float64
@@ -52,6 +53,7 @@ class Surface:
     chosen: np.ndarray
     line: np.ndarray
     weight: np.ndarray
+    drawn: np.ndarray = None
     names: list[str] = field(default_factory=lambda: ["mesh"])
     first_vertex: np.ndarray = None
     first_corner: np.ndarray = None
@@ -59,6 +61,8 @@ class Surface:
     first_edge: np.ndarray = None
 
     def __post_init__(self):
+        if self.drawn is None:
+            self.drawn = self.triangles
         for name, count in (
             ("vertex", len(self.V)),
             ("corner", len(self.vertex)),
@@ -97,6 +101,7 @@ _SHIFTED = {
     "edge": "edge",
     "next": "corner",
     "triangles": "corner",
+    "drawn": "corner",
     "triangle_face": "face",
     "edges": "vertex",
 }

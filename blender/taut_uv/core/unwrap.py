@@ -9,6 +9,7 @@ from .islands import Island, islands_of, sides_of_edges
 from .messages import Trouble, about_faces, about_vertices, explained
 from .placing import pack_islands, write_island
 from .plane import areas, mirrored, rigid_fit
+from .polygons import tell_concave
 from .surface import Surface
 from .work import Clock, Result, untold
 
@@ -63,6 +64,7 @@ def unwrap(
             result.complete = False
             break
     _place(taut, s, result, placed, loose, pack, (padding, resolution, rotate), clock)
+    tell_concave(s, result)
     result.numbers["islands"] = len(placed) + len(loose)
     return result
 
