@@ -20,6 +20,7 @@
 #include <taut/impl/io/write_files.hpp>
 #include <taut/impl/io/write_volume.hpp>
 
+#include "mpi/checkpoint.hpp"
 #include "mpi/mpi_report.hpp"
 #include "mpi/processes.hpp"
 #include "mpi/ranged_targets.hpp"
@@ -190,6 +191,8 @@ public:
                 : outcome == outcome::infeasible ? exit_code::infeasible
                                                  : exit_code::no_valid_map;
         write();
+        if (code_ == exit_code::valid)
+            checkpoint(all_, options_, ranged_.get(), reader_ ? &reader_->file : nullptr).remove();
         return code_;
     }
 
@@ -270,9 +273,12 @@ private:
         }
         else
         {
+            const checkpoint kept(all_, options_, ranged_.get(), reader_ ? &reader_->file : nullptr);
+            auto begin_with = kept.read();
+            if (!all_.any(!begin_with.empty())) begin_with = std::move(shape);
             dist::deform_params<element> how{.energy = energy_of(shape_.energy),
                                              .constraints = ranged_ ? held_.pins : constraints_of(reader_.get()),
-                                             .initial = std::move(shape),
+                                             .initial = std::move(begin_with),
                                              .solver = options_.solver,
                                              .queue = q};
             if (shape_.tolerance) how.solve.stopping.gradient_tolerance = *shape_.tolerance;
@@ -281,7 +287,7 @@ private:
             report_.seconds.distribute = clock_.now() - begin;
             require_not_interrupted();
             tell("deform");
-            found = session.solve(limits());
+            found = kept.solve(session, [this] { return limits(); });
         }
         report_.seconds.solve = clock_.now() - begin - report_.seconds.distribute;
         report_.run = std::move(found.report);
