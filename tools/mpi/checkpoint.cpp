@@ -79,6 +79,7 @@ dist::result<tetrahedron> checkpoint::solve(dist::session<tetrahedron>& session,
     using seconds = std::chrono::duration<double>;
     double interval = options_.checkpoint_interval;
     int steps = 0, products = 0;
+    double energy = 0, gradient = 0;
     for (;;)
     {
         auto limits = limits_left();
@@ -93,7 +94,14 @@ dist::result<tetrahedron> checkpoint::solve(dist::session<tetrahedron>& session,
             return go_on;
         };
         auto found = session.solve(limits);
-        if (found.report.steps == 0) interval *= 2; // too short for anything
+        if (found.report.steps == 0) // too short for anything
+        {
+            interval *= 2;
+            found.report.energy = energy;
+            found.report.gradient = gradient;
+        }
+        energy = found.report.energy;
+        gradient = found.report.gradient;
         found.report.steps += std::exchange(steps, steps + found.report.steps);
         found.report.products += std::exchange(products, products + found.report.products);
         const bool by_interval = !all_.any(last || refused);
