@@ -19,7 +19,7 @@ class Taut < Formula
 
   def install
     system "cmake", "-S", ".", "-B", "build", *std_cmake_args,
-           "-DTAUT_TESTS=OFF", "-DTAUT_EXAMPLES=OFF", "-DTAUT_BENCH=OFF", "-DTAUT_TOOLS=ON"
+           "-DTAUT_TESTS=OFF", "-DTAUT_EXAMPLES=OFF", "-DTAUT_BENCH=OFF", "-DTAUT_TOOLS=ON", "-DTAUT_MPI=OFF"
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"
     pkgshare.install "examples/unwrap.cpp"
