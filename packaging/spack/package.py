@@ -12,6 +12,7 @@ class Taut(CMakePackage):
     version("1.0.0-rc.1", sha256="0000000000000000000000000000000000000000000000000000000000000000")
 
     variant("cli", default=True, description="Build the command line program")
+    variant("mpi", default=False, description="Build taut::dist and taut-mpi: one mesh over many processes")
 
     depends_on("cxx", type="build")
     depends_on("cmake@3.22:", type="build")
@@ -28,10 +29,15 @@ class Taut(CMakePackage):
         depends_on("xz")
         depends_on("lz4")
 
+    with when("+mpi"):
+        depends_on("mpi")
+        depends_on("petsc@3.18: +mpi+hypre~complex")
+
     def cmake_args(self):
         return [
             self.define("TAUT_TESTS", False),
             self.define("TAUT_EXAMPLES", False),
             self.define("TAUT_BENCH", False),
             self.define_from_variant("TAUT_TOOLS", "cli"),
+            self.define_from_variant("TAUT_MPI", "mpi"),
         ]

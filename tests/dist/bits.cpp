@@ -158,6 +158,12 @@ TEST_CASE("dist communicator: what is exchanged arrives in order; sums are the s
     std::vector<double> x = {1.0 * all.rank(), 0.1};
     all.add(std::span(x));
     CHECK(x[0] == all.size() * (all.size() - 1) / 2.0);
+    // What is no number is none on all processes, wherever it comes from.
+    const bool last = all.rank() == all.size() - 1;
+    CHECK(std::isnan(all.least(last ? std::nan("") : 1.0)));
+    CHECK(std::isnan(all.most(last ? std::nan("") : 1.0)));
+    CHECK(all.least(1.0 + all.rank()) == 1);
+    CHECK(all.most(-1.0 - all.rank()) == -1);
 }
 
 } // namespace taut::test

@@ -215,6 +215,96 @@ def case_formats():
     near(stats("s.json")["energy"], energies[0], 8)
 
 
+def case_ranges():
+    """All processes read and write; the file is the same text with other coordinates."""
+    b = bar(3)
+    b.su2("bar.su2")
+    b.medit("bar.mesh")
+    with open("end.csv", "w") as f:
+        f.write("vertex,x,y,z\n")
+        f.writelines("%d,%.17g,%.17g,%.17g\n" % (v, *stretched(b.points[v])) for v in b.end)
+    energies = []
+    for name, fixed, moved in (("bar.su2", "start", "end"), ("bar.mesh", "vertices:1", "vertices:2")):
+        for processes in (1, 3):
+            out = "out" + os.path.splitext(name)[1]
+            run("deform", name, "--fix", fixed, "--move", moved + "=end.csv", "-o", out, "--stats", "s.json",
+                processes=processes)
+            s = stats("s.json")
+            assert s["read"] == "by ranges", s["read"]
+            assert s["pins"] == len(b.start) + len(b.end) and s["quality"]["worst_ids"] is not None
+            energies.append(s["energy"])
+            with open(name) as f, open(out) as g:
+                for old, new in zip(f.read().split("\n"), g.read().split("\n"), strict=True):
+                    assert old == new or len(old.split()) == 4, (old, new)
+            serial("check", out)
+    for e in energies:
+        near(e, energies[0], 9)
+    # What moves nothing changes nothing, bit for bit.
+    with open("all.csv", "w") as f:
+        f.writelines("%d,%.17g,%.17g,%.17g\n" % (v, *p) for v, p in enumerate(b.points))
+    run("deform", "bar.su2", "--pins", "all.csv", "-o", "same.su2")
+    with open("bar.su2") as f, open("same.su2") as g:
+        assert f.read() == g.read()
+    # Faults of places, found at the process that has the vertex.
+    fails("deform", "bar.su2", "--move", "start=end.csv", "-o", "x.su2", code=4, word="is not in group start")
+    fails("deform", "bar.su2", "--fix", "end", "--move", "end:translate:0,0,1", "-o", "x.su2", code=4,
+          word="two places")
+    fails("deform", "bar.su2", "--move", "end:fly:1", "-o", "x.su2", code=2, word="GROUP=FILE.csv")
+    with open("bad.csv", "w") as f:
+        f.write("1,2,3\n" + "4,x,5,6\n")
+    fails("deform", "bar.su2", "--pins", "bad.csv", "-o", "x.su2", code=3, word="bad.csv, line 1")
+
+
+def case_checkpoint():
+    b = bar(8)
+    b.su2("bar.su2")
+    b.pins("pins.csv", lambda p: (p[0], p[1], 0.4 * p[2]))  # it buckles, which takes many steps
+    task = ("deform", "bar.su2", "--pins", "pins.csv", "-o", "out.su2", "--checkpoint", "so-far.su2",
+            "--checkpoint-interval", "1", "--stats", "s.json")
+    began = subprocess.Popen(command(*task), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    for _ in range(3000):
+        if os.path.exists("so-far.su2"):
+            break
+        time.sleep(0.02)
+    for process in children(began.pid)[:1]:
+        os.kill(int(process), signal.SIGTERM)
+    assert began.wait(timeout=100) in (0, 143)
+    if began.returncode == 143:
+        serial("check", "so-far.su2")
+        os.remove("so-far.su2")
+    # It goes on from what is there, with another number of processes, and removes it.
+    b.pins("pins.csv", stretched)
+    plain = task[:task.index("--checkpoint")] + ("--stats", "s.json")
+    run(*plain)
+    steps = stats("s.json")["iterations"]
+    os.rename("out.su2", "so-far.su2")
+    run(*task, processes=3)
+    again = stats("s.json")
+    assert again["converged"] and again["iterations"] <= 1 < steps and not os.path.exists("so-far.su2"), again
+    with open("so-far.su2", "w") as f:
+        f.write("NDIME=3\nNELEM=1\n10 0 1 2 3\nNPOIN=4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n")
+    fails(*task, code=4, word="checkpoint of another mesh")
+    os.remove("so-far.su2")
+    # Options that PETSc has no use for are named.
+    _, err = run("deform", "bar.su2", "--pins", "pins.csv", "-o", "o.su2", "--petsc", "-nonsense 3 -pc_type gamg")
+    assert "-nonsense" in err and "-pc_type" not in err, err
+
+
+def case_describe():
+    subprocess.run([taut_mpi, "man", "pages"], check=True, timeout=60)
+    assert sorted(os.listdir("pages")) == ["taut-mpi-check.1", "taut-mpi-deform.1", "taut-mpi-smooth.1", "taut-mpi.1"]
+    with open("pages/taut-mpi-deform.1") as f:
+        page = f.read()
+    assert "checkpoint" in page and "surface" not in page.split(".SH OPTIONS")[0], page
+    for shell, word in (("bash", "complete -F _taut_mpi taut-mpi"), ("zsh", "#compdef taut-mpi"),
+                        ("fish", "complete -c taut-mpi -f")):
+        text = subprocess.run([taut_mpi, "completion", shell], check=True, capture_output=True, text=True,
+                              timeout=60).stdout
+        assert word in text and "checkpoint-interval" in text, text
+        if shell == "bash":
+            subprocess.run(["bash", "-n"], input=text, text=True, check=True)
+
+
 def case_smooth():
     b = bar(3)
     b.medit("bar.mesh")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "describe/completion.hpp"
 
+#include <algorithm>
 #include <string_view>
 
 namespace taut::tools
@@ -9,8 +10,19 @@ namespace taut::tools
 namespace
 {
 
-constexpr const char* made =
-    "# SPDX-License-Identifier: MIT\n# Made by `taut completion` of the program's own options.\n";
+std::string made(const program_words& program)
+{
+    return "# SPDX-License-Identifier: MIT\n# Made by `" + program.own.name +
+           " completion` of the program's own options.\n";
+}
+
+/// What functions of a shell are named after.
+std::string identifier(const program_words& program)
+{
+    std::string name = '_' + program.own.name;
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+}
 
 std::string joined(const std::vector<std::string>& words, const std::string& between)
 {
@@ -45,7 +57,7 @@ std::vector<std::string> names_of(const command_words& command)
 // bash
 
 /// The cases of the words before the one that is completed, of one command.
-std::string bash_cases(const command_words& command)
+std::string bash_cases(const command_words& command, const std::string& function)
 {
     std::string cases;
     for (const auto& option : command.options)
@@ -53,9 +65,9 @@ std::string bash_cases(const command_words& command)
         if (option.argument.empty()) continue;
         cases += "    " + command.name + ':' + joined(option.names, '|' + command.name + ':') + ")\n        ";
         if (!option.choices.empty())
-            cases += "_taut_words " + quoted(joined(option.choices, " "));
+            cases += function + "_words " + quoted(joined(option.choices, " "));
         else if (option.is_file)
-            cases += "_taut_files";
+            cases += function + "_files";
         else
             cases += "COMPREPLY=()";
         cases += "\n        return\n        ;;\n";
@@ -107,9 +119,9 @@ std::string fish_quoted(const std::string& text)
     return '\'' + escaped(text, "'\\", "\\") + '\'';
 }
 
-std::string fish_option(const std::string& condition, const option_words& option)
+std::string fish_option(const std::string& program, const std::string& condition, const option_words& option)
 {
-    std::string line = "complete -c taut -n " + fish_quoted(condition);
+    std::string line = "complete -c " + program + " -n " + fish_quoted(condition);
     for (const auto& name : option.names)
         line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
     if (!option.argument.empty())
@@ -126,29 +138,31 @@ std::string bash_completion(const program_words& program)
 {
     std::vector<std::string> commands;
     std::string options, values;
+    const std::string function = identifier(program);
     for (const auto& command : program.commands)
     {
         commands.push_back(command.name);
         options += "    " + command.name + ") options=" + quoted(joined(names_of(command), " ")) + " ;;\n";
-        values += bash_cases(command);
+        values += bash_cases(command, function);
     }
     const std::string all = joined(commands, " ");
-    return std::string(made) + R"(
-_taut_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$current"); }
+    return made(program) + "\n" + function + R"(_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$current"); }
 
-_taut_files()
+)" + function +
+           R"(_files()
 {
     compopt -o filenames 2>/dev/null
     mapfile -t COMPREPLY < <(compgen -f -- "$current")
 }
 
-_taut()
+)" + function +
+           R"(()
 {
     local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command=${COMP_WORDS[1]} options
     COMPREPLY=()
     if ((COMP_CWORD == 1)); then
-        _taut_words )" +
-           quoted(all + ' ' + joined(names_of(program.own), " ")) + R"(
+        )" +
+           function + "_words " + quoted(all + ' ' + joined(names_of(program.own), " ")) + R"(
         return
     fi
     # --boundary=circle is three words
@@ -165,19 +179,22 @@ _taut()
            R"(    *) return ;;
     esac
     if [[ $current == -* ]]; then
-        _taut_words "$options"
+        )" +
+           function + R"(_words "$options"
     else
-        _taut_files
+        )" +
+           function + R"(_files
     fi
 }
 
-complete -F _taut taut
-)";
+complete -F )" +
+           function + ' ' + program.own.name + "\n";
 }
 
 std::string zsh_completion(const program_words& program)
 {
     std::string named, commands;
+    const std::string function = identifier(program);
     for (const auto& command : program.commands)
     {
         named += "        " + quoted(command.name + ':' + escaped(command.text, ":\\", "\\")) + '\n';
@@ -185,8 +202,7 @@ std::string zsh_completion(const program_words& program)
     }
     std::string own;
     for (const auto& option : program.own.options) own += zsh_option(option);
-    return std::string("#compdef taut\n") + made + R"(
-_taut()
+    return "#compdef " + program.own.name + "\n" + made(program) + "\n" + function + R"(()
 {
     local context state state_descr line
     typeset -A opt_args
@@ -207,21 +223,22 @@ _taut()
     esac
 }
 
-if [ "${funcstack[1]}" = _taut ]; then _taut "$@"; else compdef _taut taut; fi
-)";
+if [ "${funcstack[1]}" = )" +
+           function + " ]; then " + function + R"( "$@"; else compdef )" + function + ' ' + program.own.name + "; fi\n";
 }
 
 std::string fish_completion(const program_words& program)
 {
-    std::string text = std::string(made) + "complete -c taut -f\n";
-    for (const auto& option : program.own.options) text += fish_option("__fish_use_subcommand", option);
+    const std::string& name = program.own.name;
+    std::string text = made(program) + "complete -c " + name + " -f\n";
+    for (const auto& option : program.own.options) text += fish_option(name, "__fish_use_subcommand", option);
     for (const auto& command : program.commands)
     {
-        text += "\ncomplete -c taut -n __fish_use_subcommand -a " + command.name + " -d " + fish_quoted(command.text) +
-                '\n';
+        text += "\ncomplete -c " + name + " -n __fish_use_subcommand -a " + command.name + " -d " +
+                fish_quoted(command.text) + '\n';
         const std::string condition = "__fish_seen_subcommand_from " + command.name;
-        if (!command.positionals.empty()) text += "complete -c taut -n " + fish_quoted(condition) + " -F\n";
-        for (const auto& option : command.options) text += fish_option(condition, option);
+        if (!command.positionals.empty()) text += "complete -c " + name + " -n " + fish_quoted(condition) + " -F\n";
+        for (const auto& option : command.options) text += fish_option(name, condition, option);
     }
     return text;
 }

@@ -33,12 +33,12 @@ std::string slanted(const std::string& text)
     return "\\fI" + plain(text) + "\\fP";
 }
 
-std::string header(const std::string& name, const std::string& text)
+std::string header(const std::string& program, const std::string& name, const std::string& text)
 {
     std::string upper = name;
     std::transform(upper.begin(), upper.end(), upper.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return ".\\\" Made by `taut man` of the program's own options.\n.TH " + plain(upper) +
+    return ".\\\" Made by `" + program + " man` of the program's own options.\n.TH " + plain(upper) +
            " 1 \"\" \"taut " TAUT_VERSION_STRING "\" \"User Commands\"\n.SH NAME\n" + plain(name) + " \\- " +
            plain(text) + '\n';
 }
@@ -103,7 +103,7 @@ std::string man_page(const program_words& program)
     const auto& own = program.own;
     std::string text = own.text; // the names of pages stand in lists, without a full stop
     if (text.ends_with('.')) text.pop_back();
-    std::string page = header(own.name, text);
+    std::string page = header(own.name, own.name, text);
     page += ".SH SYNOPSIS\n" + bold(own.name) + ' ' + slanted("COMMAND") + " [" + slanted("OPTION") + "...] " +
             slanted("FILE") + "...\n.SH DESCRIPTION\n" + plain(own.text) +
             "\nEach command has a page of its own, and lists its options where " + bold("--help") +
@@ -120,7 +120,7 @@ std::string man_page(const program_words& program)
 std::string man_page(const program_words& program, const command_words& command)
 {
     const std::string& main = program.own.name;
-    std::string page = header(main + '-' + command.name, command.text);
+    std::string page = header(main, main + '-' + command.name, command.text);
     page += ".SH SYNOPSIS\n" + bold(main) + ' ' + bold(command.name) + " [" + slanted("OPTION") + "...]";
     for (const auto& option : command.positionals)
     {

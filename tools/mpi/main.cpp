@@ -11,6 +11,7 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <mpi.h>
 
@@ -20,6 +21,7 @@
 #include <taut/impl/mesh/mesh_error.hpp>
 #include <taut/version.hpp>
 
+#include "commands.hpp"
 #include "mpi/mpi_check.hpp"
 #include "mpi/mpi_shape.hpp"
 #include "mpi/processes.hpp"
@@ -159,9 +161,9 @@ int agreed(const communicator& all, const ending& mine)
 }
 
 /// What a command does, given the place of its report.
-using command = std::function<exit_code(const communicator&, const char*)>;
+using collective = std::function<exit_code(const communicator&, const char*)>;
 
-std::function<exit_code()> of_parsed(const communicator& all, const CLI::App& app, const command& body)
+std::function<exit_code()> of_parsed(const communicator& all, const CLI::App& app, const collective& body)
 {
     return [&all, &app, body]
     {
@@ -173,6 +175,21 @@ std::function<exit_code()> of_parsed(const communicator& all, const CLI::App& ap
             });
         return body(all, place);
     };
+}
+
+/// Of process 0 alone.
+ending described(const communicator& all, const CLI::App& app, const tools::command& words)
+{
+    return ended(
+        [&]
+        {
+            all.together(
+                [&]
+                {
+                    if (all.rank() == 0) words(outputs(files_of(app)));
+                });
+            return exit_code::valid;
+        });
 }
 
 ending run_program(const communicator& all, int argc, char** argv, std::chrono::steady_clock::time_point launch)
@@ -193,6 +210,7 @@ ending run_program(const communicator& all, int argc, char** argv, std::chrono::
     declare_smooth(smooth, smoothing);
     auto& check = *program.add_subcommand("check", "Certify that no tetrahedron of a volume is inverted");
     declare_check(check, checking);
+    const auto complete = add_completion(program), man = add_man(program);
     try
     {
         program.parse(argc, argv);
@@ -206,8 +224,12 @@ ending run_program(const communicator& all, int argc, char** argv, std::chrono::
     }
     catch (const CLI::ParseError& e)
     {
-        return {exit_code::usage, std::string(e.what()) + "; `taut-mpi --help` lists the options"};
+        std::string name = "taut-mpi";
+        for (const auto* app : program.get_subcommands()) name += ' ' + app->get_name();
+        return {exit_code::usage, std::string(e.what()) + "; `" + name + " --help` lists the options"};
     }
+    for (const auto& [name, words] : {std::pair("completion", complete), std::pair("man", man)})
+        if (const auto* const app = program.get_subcommand(name); app->parsed()) return described(all, *app, words);
     const auto shape = [launch](const mpi_options& o)
     {
         return [launch, &o](const communicator& c, const char* place)

@@ -3,11 +3,14 @@
 
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include <taut/impl/dist/check.hpp>
 #include <taut/impl/dist/deal.hpp>
+#include <taut/impl/dist/file/open_volume.hpp>
+#include <taut/impl/dist/file/piece_shapes.hpp>
 #include <taut/impl/io/read_volume.hpp>
 
 #include "shared/command_line.hpp"
@@ -46,6 +49,31 @@ std::string text_of(const mpi_check_options& o, const dist::certificate& c)
     return (std::ostringstream() << lines).str();
 }
 
+/// The mesh by ranges, or as process 0 reads it. Cells that are turned in the file are for that one.
+dist::mesh_piece<tetrahedron> piece_of(const dist::impl::communicator& all, const mpi_check_options& o)
+{
+    try
+    {
+        if (o.zone != 0) throw dist::impl::unsuited("a zone is asked for");
+        auto volume = dist::impl::open_volume(all, o.input);
+        const auto shapes = dist::impl::piece_shapes(all, volume->at_corners(volume->piece.points));
+        if (!(shapes.worst.mean_ratio > 0)) throw dist::impl::unsuited("cells are inverted or flat");
+        return std::move(volume->piece);
+    }
+    catch (const dist::impl::unsuited&)
+    {
+        std::unique_ptr<mesh<tetrahedron>> m;
+        all.together(
+            [&]
+            {
+                if (all.rank() != 0) return;
+                const auto file = io::read_volume_file(o.input, io::volume_format::automatic, o.zone);
+                m = std::make_unique<mesh<tetrahedron>>(io::tetrahedra_of(file));
+            });
+        return dist::impl::dealt<tetrahedron>(all, m.get());
+    }
+}
+
 } // namespace
 
 void declare_check(CLI::App& app, mpi_check_options& o)
@@ -60,17 +88,7 @@ void declare_check(CLI::App& app, mpi_check_options& o)
 
 exit_code run_check(const dist::impl::communicator& all, const mpi_check_options& o)
 {
-    std::unique_ptr<mesh<tetrahedron>> m;
-    all.together(
-        [&]
-        {
-            if (all.rank() != 0) return;
-            const auto file = io::read_volume_file(o.input, io::volume_format::automatic, o.zone);
-            m = std::make_unique<mesh<tetrahedron>>(io::tetrahedra_of(file));
-        });
-    const auto piece = dist::impl::dealt<tetrahedron>(all, m.get());
-    m.reset();
-    const auto found = dist::check(all.raw(), piece);
+    const auto found = dist::check(all.raw(), piece_of(all, o));
     all.together(
         [&]
         {

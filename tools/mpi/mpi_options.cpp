@@ -3,6 +3,7 @@
 
 #include "shared/choices.hpp"
 #include "shared/command_line.hpp"
+#include "shared/shared_options.hpp"
 
 namespace taut::tools::mpi
 {
@@ -34,6 +35,18 @@ void leave_out(CLI::App& app, std::initializer_list<const char*> names)
     }
 }
 
+void say(CLI::App& app, const std::string& mesh)
+{
+    app.get_option("MESH")->description(mesh);
+    app.get_option("--output")
+        ->description("Mesh to write, in the format of the input: the same file with other coordinates");
+    app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+               "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written;\n"
+               "  9 device, MPI or PETSc failed; 130 interrupted, 143 terminated");
+}
+
+constexpr const char* tetrahedra = "Tetrahedra: .mesh .msh .vtk .vtu .node .su2";
+
 } // namespace
 
 void declare_deform(CLI::App& app, mpi_options& o)
@@ -41,6 +54,16 @@ void declare_deform(CLI::App& app, mpi_options& o)
     tools::declare_deform(app, o.shape);
     leave_out(app, {"--picture", "--cut", "--refine", "--refined-map", "--thickness"});
     declare_solver(app, o);
+    add_output(app, "--checkpoint", o.checkpoint, {.may_fail = false},
+               "Write the shape so far to this mesh from time to time; where it is there already, begin with it. "
+               "Removed once the result is written")
+        ->type_name("FILE");
+    app.add_option("--checkpoint-interval", o.checkpoint_interval, "Seconds between two of these")
+        ->type_name("S")
+        ->capture_default_str()
+        ->check(number_that([](double x) { return x >= 1; }, "must be at least 1"))
+        ->needs("--checkpoint");
+    say(app, tetrahedra);
 }
 
 void declare_smooth(CLI::App& app, mpi_options& o)
@@ -48,6 +71,7 @@ void declare_smooth(CLI::App& app, mpi_options& o)
     tools::declare_smooth(app, o.shape);
     leave_out(app, {"--picture", "--cut", "--interfaces"});
     declare_solver(app, o);
+    say(app, tetrahedra);
 }
 
 } // namespace taut::tools::mpi

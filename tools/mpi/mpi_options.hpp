@@ -17,6 +17,8 @@ struct mpi_options
 {
     shape_options shape;
     dist::solver_params solver;
+    std::string checkpoint;           ///< a mesh file for the shape so far; empty: none
+    double checkpoint_interval = 600; ///< seconds
 };
 
 /// Declare the options of either command, without those that are of one process.

@@ -62,6 +62,7 @@ nlohmann::ordered_json to_json(const mpi_report& r, const mpi_options& o)
     json["input"] = o.shape.input;
     json["output"] = o.shape.output;
     json["format"] = r.format;
+    json["read"] = r.read_whole.empty() ? "by ranges" : "by process 0: " + r.read_whole;
     json["element"] = "tetrahedron";
     json["vertices"] = r.vertices;
     json["elements"] = r.elements;

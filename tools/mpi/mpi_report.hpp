@@ -32,6 +32,7 @@ struct mpi_report
 {
     dist::report run;
     std::string format, cells, device;
+    std::string read_whole; ///< why process 0 read the input as a whole; empty: all read it by ranges
     std::size_t vertices = 0, elements = 0, pins = 0, springs = 0;
     volume_state before, after;
     std::vector<process_numbers> processes;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <ctime>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -12,13 +13,17 @@
 
 #include <taut/dist.hpp>
 #include <taut/impl/dist/deal.hpp>
+#include <taut/impl/dist/file/open_volume.hpp>
+#include <taut/impl/dist/file/piece_shapes.hpp>
 #include <taut/impl/io/make_untangle_problem.hpp>
 #include <taut/impl/io/pins.hpp>
 #include <taut/impl/io/write_files.hpp>
 #include <taut/impl/io/write_volume.hpp>
 
+#include "mpi/checkpoint.hpp"
 #include "mpi/mpi_report.hpp"
 #include "mpi/processes.hpp"
+#include "mpi/ranged_targets.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/progress.hpp"
@@ -103,6 +108,53 @@ dist::constraints<element> constraints_of(const reader* r)
     return c;
 }
 
+/// What names of outputs are held against.
+io::volume_file head_of(const dist::impl::ranged_volume& volume, const std::string& path)
+{
+    io::volume_file file;
+    file.path = path;
+    file.format = volume.format;
+    if (volume.format == io::impl::name_of(io::volume_format::tetgen))
+    {
+        file.path = std::filesystem::path(path).replace_extension(".node").string();
+        file.companions = {{".ele", {}}, {".face", {}}};
+    }
+    return file;
+}
+
+/// The input read by ranges; null where process 0 has to read it. Collective.
+std::unique_ptr<dist::impl::ranged_volume> read_by_ranges(const dist::impl::communicator& all, const mpi_options& o,
+                                                          mpi_report& report)
+{
+    const auto& shape = o.shape;
+    try
+    {
+        if (!shape.rest.empty() || shape.zone != 0) throw dist::impl::unsuited("--rest or --zone is given");
+        auto volume = dist::impl::open_volume(all, shape.input);
+        report.before.shapes = dist::impl::piece_shapes(all, volume->at_corners(volume->piece.points));
+        if (!(report.before.shapes.worst.mean_ratio > 0)) throw dist::impl::unsuited("cells are inverted or flat");
+        all.together(
+            [&]
+            {
+                if (all.rank() != 0) return;
+                check(shape);
+                require_name(shape.output, head_of(*volume, shape.input));
+                if (io::impl::is_stream(shape.output)) throw usage_error("-o: name a file");
+            });
+        report.format = volume->format;
+        report.cells = count(static_cast<std::uint64_t>(volume->cells), "tetrahedron", "tetrahedra");
+        report.vertices = static_cast<std::size_t>(volume->vertices);
+        report.elements = static_cast<std::size_t>(volume->cells);
+        return volume;
+    }
+    catch (const dist::impl::unsuited& e)
+    {
+        report.before = volume_state();
+        report.read_whole = e.what();
+        return nullptr;
+    }
+}
+
 double processor_seconds()
 {
     timespec t{};
@@ -127,15 +179,7 @@ public:
     exit_code operator()()
     {
         tell("read");
-        numbers_.read = clock_.timed(
-            [&]
-            {
-                all_.together(
-                    [&]
-                    {
-                        if (first()) reader_ = read(options_, report_);
-                    });
-            });
+        numbers_.read = clock_.timed([this] { read_input(); });
         require_not_interrupted();
         tell("distribute");
         solve();
@@ -147,11 +191,27 @@ public:
                 : outcome == outcome::infeasible ? exit_code::infeasible
                                                  : exit_code::no_valid_map;
         write();
+        if (code_ == exit_code::valid)
+            checkpoint(all_, options_, ranged_.get(), reader_ ? &reader_->file : nullptr).remove();
         return code_;
     }
 
 private:
     bool first() const { return all_.rank() == 0; }
+
+    void read_input()
+    {
+        ranged_ = read_by_ranges(all_, options_, report_);
+        if (!ranged_)
+            return all_.together(
+                [&]
+                {
+                    if (first()) reader_ = read(options_, report_);
+                });
+        held_ = targets_of(*ranged_, shape_);
+        report_.pins = static_cast<std::size_t>(held_.pinned);
+        report_.springs = static_cast<std::size_t>(held_.springs);
+    }
 
     void tell(std::string_view phase) { shown_.update({.phase = phase, .seconds = clock_.now()}); }
 
@@ -192,18 +252,9 @@ private:
     void solve()
     {
         const double begin = clock_.now();
-        const mesh<element>* m = nullptr;
-        std::optional<mesh<element>> at_rest;
         points shape;
-        all_.together(
-            [&]
-            {
-                if (!first()) return;
-                m = &reader_->input->simplices();
-                if (!reader_->file.rest.empty() && !shape_.smoothing) shape = reader_->file.points;
-            });
-        const auto piece = dist::impl::dealt<element>(all_, m);
-        shape = dist::impl::spread(all_, shape);
+        const auto dealt = ranged_ ? dist::mesh_piece<element>() : dealt_piece(shape);
+        const auto& piece = ranged_ ? ranged_->piece : dealt;
         const queue q = own_queue(all_, shape_.device);
         if (first()) report_.device = q.device().name();
         dist::result<element> found;
@@ -214,16 +265,20 @@ private:
                                     .solver = options_.solver,
                                     .queue = q,
                                     .limits = limits()};
-            if (first()) how.fixed.assign(reader_->fixed.begin(), reader_->fixed.end());
+            if (ranged_) how.fixed = held_.fixed;
+            if (reader_) how.fixed.assign(reader_->fixed.begin(), reader_->fixed.end());
             if (shape_.tolerance) how.solve.stopping.gradient_tolerance = *shape_.tolerance;
             numbers_.distributed = sent_so_far();
             found = dist::smooth<element>(all_.raw(), piece, how);
         }
         else
         {
+            const checkpoint kept(all_, options_, ranged_.get(), reader_ ? &reader_->file : nullptr);
+            auto begin_with = kept.read();
+            if (!all_.any(!begin_with.empty())) begin_with = std::move(shape);
             dist::deform_params<element> how{.energy = energy_of(shape_.energy),
-                                             .constraints = constraints_of(reader_.get()),
-                                             .initial = std::move(shape),
+                                             .constraints = ranged_ ? held_.pins : constraints_of(reader_.get()),
+                                             .initial = std::move(begin_with),
                                              .solver = options_.solver,
                                              .queue = q};
             if (shape_.tolerance) how.solve.stopping.gradient_tolerance = *shape_.tolerance;
@@ -232,12 +287,28 @@ private:
             report_.seconds.distribute = clock_.now() - begin;
             require_not_interrupted();
             tell("deform");
-            found = session.solve(limits());
+            found = kept.solve(session, [this] { return limits(); });
         }
         report_.seconds.solve = clock_.now() - begin - report_.seconds.distribute;
         report_.run = std::move(found.report);
-        x_ = dist::impl::collected(all_, found.x);
+        x_ = ranged_ ? std::move(found.x) : dist::impl::collected(all_, found.x);
         count_process();
+    }
+
+    /// What process 0 has read. shape: that to begin with, if it is not that at rest.
+    dist::mesh_piece<element> dealt_piece(points& shape)
+    {
+        const mesh<element>* m = nullptr;
+        all_.together(
+            [&]
+            {
+                if (!first()) return;
+                m = &reader_->input->simplices();
+                if (!reader_->file.rest.empty() && !shape_.smoothing) shape = reader_->file.points;
+            });
+        auto piece = dist::impl::dealt<element>(all_, m);
+        shape = dist::impl::spread(all_, shape);
+        return piece;
     }
 
     void count_process()
@@ -256,24 +327,37 @@ private:
         report_.processes = dist::impl::collected(all_, std::vector{numbers_});
     }
 
-    /// The first process writes; all files appear, or none.
+    /// Of process 0. Throws where there is nothing to be written; adds notes.
+    void require_shape(const std::vector<std::string>& notes)
+    {
+        auto& found = report_.run;
+        if (!found.flips || code_ == exit_code::no_valid_map || code_ == exit_code::infeasible)
+        {
+            shown_.finish();
+            if (code_ == exit_code::infeasible) throw infeasible_problem(found.reason);
+            throw no_valid_map(found.reason.empty() ? "nothing was written" : found.reason);
+        }
+        found.notes.insert(found.notes.end(), notes.begin(), notes.end());
+        if (!shape_.smoothing && report_.pins + report_.springs == 0) found.notes.push_back(nothing_held);
+    }
+
+    void write_files(std::vector<io::file_to_write> files)
+    {
+        write_with_report(std::move(files), report_, named{options_, shape_.stats}, place_, shown_,
+                          [&] { report_.seconds.total = clock_.now(); });
+    }
+
+    /// All files appear, or none.
     void write()
     {
         report_.seconds.read = numbers_.read;
+        if (first()) tell("write");
+        if (ranged_) return write_ranges();
         all_.together(
             [&]
             {
                 if (!first()) return;
-                tell("write");
-                auto& found = report_.run;
-                if (x_.empty() || code_ == exit_code::no_valid_map || code_ == exit_code::infeasible)
-                {
-                    shown_.finish();
-                    if (code_ == exit_code::infeasible) throw infeasible_problem(found.reason);
-                    throw no_valid_map(found.reason.empty() ? "nothing was written" : found.reason);
-                }
-                found.notes.insert(found.notes.end(), reader_->notes.begin(), reader_->notes.end());
-                if (!shape_.smoothing && report_.pins + report_.springs == 0) found.notes.push_back(nothing_held);
+                require_shape(reader_->notes);
                 const auto marks = reader_->pins.held();
                 std::vector<char> still(x_.size(), 0);
                 for (const idx v : reader_->fixed) still[static_cast<std::size_t>(v)] = 1;
@@ -281,12 +365,30 @@ private:
                     *reader_->input, x_,
                     [&](std::size_t v, int k)
                     { return shape_.smoothing ? !still[v] : !(v < marks.size() && marks.test(v, k)); });
-                if (!written.note.empty()) found.notes.push_back(written.note);
+                if (!written.note.empty()) report_.run.notes.push_back(written.note);
                 if (!written.state.simplices) throw no_valid_map(written.defects(*reader_->input));
                 report_.after = written.state;
-                auto files = io::impl::volume_outputs(shape_.output, reader_->file, written.points);
-                write_with_report(std::move(files), report_, named{options_, shape_.stats}, place_, shown_,
-                                  [&] { report_.seconds.total = clock_.now(); });
+                write_files(io::impl::volume_outputs(shape_.output, reader_->file, written.points));
+            });
+    }
+
+    /// Each process writes its share; the file gets its name once the report is out.
+    void write_ranges()
+    {
+        all_.together(
+            [&]
+            {
+                if (first()) require_shape(held_.notes);
+            });
+        report_.after.shapes = dist::impl::piece_shapes(all_, ranged_->at_corners(x_));
+        dist::impl::ranged_volume::outputs files;
+        writing([&] { files = ranged_->write(shape_.output, x_); });
+        all_.together(
+            [&]
+            {
+                if (!first()) return;
+                write_files({});
+                for (const auto& file : files) writing([&] { file->commit(); });
             });
     }
 
@@ -304,10 +406,12 @@ private:
     const char* place_;
     run_clock clock_;
     progress shown_;
-    std::unique_ptr<reader> reader_;
+    std::unique_ptr<reader> reader_;                    ///< of process 0, where it has to read all
+    std::unique_ptr<dist::impl::ranged_volume> ranged_; ///< else
+    ranged_targets held_;                               ///< of what was read by ranges
     mpi_report report_;
     process_numbers numbers_;
-    points x_;
+    points x_; ///< of the piece, where that was read by ranges, else of all vertices, at process 0
     exit_code code_ = exit_code::valid, stopped_by_ = exit_code::interrupted;
 };
 

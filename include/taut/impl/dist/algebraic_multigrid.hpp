@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +59,7 @@ public:
             make(rows, dimension, near);
         }
         ++setups_;
+        made_ = made_ || (safety_ == 0 && !factors_);
     }
 
     /// Collective. out = M v at owned vertices.
@@ -68,11 +71,31 @@ public:
         rows.scatter(out_, out);
     }
 
+    /// Names among the options of the parameters that PETSc made no use of; none before the first system.
+    std::vector<std::string> unused() const
+    {
+        std::vector<std::string> names;
+        std::istringstream words(params_.options);
+        for (std::string word; made_ && words >> word;)
+        {
+            if (word.size() < 2 || word[0] != '-' || std::isalpha(static_cast<unsigned char>(word[1])) == 0) continue;
+            PetscBool used = PETSC_FALSE;
+            require(PetscOptionsUsed(nullptr, (prefix(0, false) + word.substr(1)).c_str(), &used));
+            if (!used) names.push_back(std::move(word));
+        }
+        return names;
+    }
+
     int setups() const { return setups_; }       ///< changes of the matrix
     int fallbacks() const { return fallbacks_; } ///< how often a safer one was needed
 
 private:
     static constexpr int last_ = 2; ///< the block diagonal
+
+    static std::string prefix(int safety, bool factors)
+    {
+        return "taut_" + std::to_string(safety) + (factors ? "_lu_" : "_");
+    }
 
     /// Options of PETSc, by what one may trust. Chebyshev's bounds are estimated for each new matrix, with a margin:
     /// the first ones turn the smoother indefinite later.
@@ -99,11 +122,11 @@ private:
         require(PCCreate(all_.raw(), &made));
         pc_ = petsc_preconditioner(made);
         // Under a prefix of its own, so that the options of a program are not ours.
-        const std::string prefix = "taut_" + std::to_string(safety_) + (factors_ ? "_lu_" : "_");
-        require(PetscOptionsPrefixPush(nullptr, prefix.c_str()));
+        const std::string named = prefix(safety_, factors_);
+        require(PetscOptionsPrefixPush(nullptr, named.c_str()));
         const auto inserted = PetscOptionsInsertString(nullptr, options().c_str());
         require(PetscOptionsPrefixPop(nullptr));
-        require(PCSetOptionsPrefix(made, prefix.c_str()));
+        require(PCSetOptionsPrefix(made, named.c_str()));
         require(PCSetOperators(made, rows.matrix(), rows.matrix()));
         const bool taken = inserted == 0 && PCSetFromOptions(made) == 0;
         if (!taken && !params_.options.empty() && safety_ == 0)
@@ -145,7 +168,7 @@ private:
     solver_params params_;
     petsc_preconditioner pc_;
     petsc_vector in_, out_;
-    bool factors_ = false;
+    bool factors_ = false, made_ = false; ///< made: once with the options of the parameters
     int safety_ = 0, setups_ = 0, fallbacks_ = 0;
 };
 

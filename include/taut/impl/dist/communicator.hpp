@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -60,8 +62,15 @@ public:
     std::int64_t sum(std::int64_t x) const { return reduced(x, MPI_INT64_T, MPI_SUM); }
     std::int64_t least(std::int64_t x) const { return reduced(x, MPI_INT64_T, MPI_MIN); }
     std::int64_t most(std::int64_t x) const { return reduced(x, MPI_INT64_T, MPI_MAX); }
-    double least(double x) const { return reduced(x, MPI_DOUBLE, MPI_MIN); }
-    double most(double x) const { return reduced(x, MPI_DOUBLE, MPI_MAX); }
+    /// NaN where one of them is: what MPI makes of that may differ between processes, which would part their ways.
+    double least(double x) const
+    {
+        const bool none = std::isnan(x);
+        std::array<double, 2> both{none ? std::numeric_limits<double>::infinity() : x, none ? 0.0 : 1.0};
+        require(MPI_Allreduce(MPI_IN_PLACE, both.data(), 2, MPI_DOUBLE, MPI_MIN, raw()), "MPI_Allreduce");
+        return both[1] > 0 ? both[0] : std::numeric_limits<double>::quiet_NaN();
+    }
+    double most(double x) const { return -least(-x); }
     bool any(bool x) const { return most(std::int64_t{x}) != 0; }
     bool all(bool x) const { return !any(!x); }
 
@@ -116,28 +125,39 @@ public:
         return exchange(parcels<T>(ranks(), mine)).items;
     }
 
-    /// Sends parcels and receives those of the others.
+    /// Sends parcels and receives those of the others. Where there is no room for them on one process, all throw.
     template <class T>
     received<T> exchange(const parcels<T>& to) const
     {
         static_assert(std::is_trivially_copyable_v<T>);
         std::vector<int> counts(ranks()), theirs(ranks()), starts(ranks() + 1, 0), places(ranks() + 1, 0);
-        for (std::size_t r = 0; r < ranks(); ++r) counts[r] = count_of(to[r].size());
+        std::vector<T> all;
+        together(
+            [&]
+            {
+                std::size_t sent = 0;
+                for (std::size_t r = 0; r < ranks(); ++r)
+                {
+                    counts[r] = count_of(to[r].size());
+                    sent += to[r].size();
+                    starts[r + 1] = count_of(sent);
+                }
+                all.reserve(sent);
+                for (const auto& parcel : to) all.insert(all.end(), parcel.begin(), parcel.end());
+            });
         require(MPI_Alltoall(counts.data(), 1, MPI_INT, theirs.data(), 1, MPI_INT, raw()), "MPI_Alltoall");
         received<T> got;
-        got.begin.assign(ranks() + 1, 0);
-        std::size_t sent = 0;
-        for (std::size_t r = 0; r < ranks(); ++r)
-        {
-            sent += to[r].size();
-            starts[r + 1] = count_of(sent);
-            got.begin[r + 1] = got.begin[r] + static_cast<std::size_t>(theirs[r]);
-            places[r + 1] = count_of(got.begin[r + 1]);
-        }
-        std::vector<T> all;
-        all.reserve(sent);
-        for (const auto& parcel : to) all.insert(all.end(), parcel.begin(), parcel.end());
-        got.items.resize(got.begin.back());
+        together(
+            [&]
+            {
+                got.begin.assign(ranks() + 1, 0);
+                for (std::size_t r = 0; r < ranks(); ++r)
+                {
+                    got.begin[r + 1] = got.begin[r] + static_cast<std::size_t>(theirs[r]);
+                    places[r + 1] = count_of(got.begin[r + 1]);
+                }
+                got.items.resize(got.begin.back());
+            });
         const record<T> type;
         require(MPI_Alltoallv(all.data(), counts.data(), starts.data(), type.handle, got.items.data(), theirs.data(),
                               places.data(), type.handle, raw()),

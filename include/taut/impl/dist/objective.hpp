@@ -295,7 +295,7 @@ private:
         if (failure_) least = -1;
         least = part_.all.least(least);
         if (least < 0) part_.all.fail(std::exchange(failure_, nullptr));
-        return least;
+        return least >= 0 ? least : 0; // no step is of use along a direction that is no number
     }
 
     /// At x + a d, where x is on the device and d in displaced_.

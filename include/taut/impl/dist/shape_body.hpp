@@ -376,6 +376,9 @@ private:
         if (r.fallbacks > 0)
             r.notes.push_back("a preconditioner failed, and a safer one took its place, " +
                               std::to_string(r.fallbacks) + (r.fallbacks == 1 ? " time" : " times"));
+        std::string unused;
+        for (const auto& name : multigrid_.unused()) unused += (unused.empty() ? "" : ", ") + name;
+        if (!unused.empty()) r.notes.push_back("PETSc made no use of the options " + unused);
         r.unknowns = objective_->unknowns();
         r.seconds = clock_.spent();
         r.own_vertices = static_cast<std::int64_t>(part_.own);

@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include <taut/impl/dist/detail/volume_pieces.ipp>
