@@ -242,7 +242,7 @@ nb::object make(const array& V, const array& F, const nb::dict& keywords, const 
     given.read("weld", job->weld);
     given.read("device", job->device);
     read_atlas_options(job->params, given);
-    job->params.observer = watched.shared->atlas_observer();
+    job->params.limits.observer = watched.shared->observer("atlas");
     return told(run(watched.shared, given.progress(), [job] { return job->make(); }),
                 [&](atlas made) -> nb::object { return dict_of(*job, std::move(made)); });
 }

@@ -55,7 +55,7 @@ inline void read_atlas_options(atlas_params& params, const options& given)
     params.keep_charts = charts_from != use::make;
     params.relax = charts_from != use::pack;
     if (given.get("single", false)) params.stored = in_float;
-    given.read_seconds("time_limit", params.time_limit);
+    given.read_seconds("time_limit", params.limits.time_limit);
 }
 
 } // namespace taut::python

@@ -45,22 +45,14 @@ public:
         return last_;
     }
 
-    /// For the parameters of calls. It keeps this object.
+    /// For the parameters of calls; stage: where the call names none. It keeps this object.
     taut::observer observer(std::string stage)
     {
         return [self = shared_from_this(), stage = std::move(stage)](const progress& p)
         {
-            if (p.iterate) self->tell({stage, p.iteration, p.level, p.value, p.gradient, p.seconds, p.usable});
-            return !self->stopped();
-        };
-    }
-
-    std::function<bool(const atlas_progress&)> atlas_observer()
-    {
-        return [self = shared_from_this()](const atlas_progress& p)
-        {
-            self->tell({std::string(p.stage), static_cast<int>(p.charts), 0, p.value,
-                        std::numeric_limits<double>::quiet_NaN(), p.seconds, p.usable});
+            if (p.iterate)
+                self->tell({p.stage.empty() ? stage : std::string(p.stage), p.iteration, p.level, p.value, p.gradient,
+                            p.seconds, p.usable});
             return !self->stopped();
         };
     }

@@ -50,10 +50,10 @@ nb::object pack_of(const array& uv, const array& F, const array& first_cell, con
     given.read("tiles", params.tiles);
     given.read("rotate", params.rotate);
     given.read("rounding", params.rounding);
-    given.read_seconds("time_limit", params.time_limit);
+    given.read_seconds("time_limit", params.limits.time_limit);
     if (const auto a = given.rows("densities")) params.densities = numbers_of(*a);
     if (const auto tiles = given.rows("wall_tiles")) params.walls = walls_of(*tiles, *given.rows("wall_ends"));
-    params.observer = watched.shared->observer("pack");
+    params.limits.observer = watched.shared->observer("pack");
     return told(run(watched.shared, given.progress(), [job] { return job->make(); }),
                 [&](const packing& made) -> nb::object
                 {

@@ -94,7 +94,7 @@ nb::object paste_of(const array& V, const array& F, const array& source_V, const
         job->params.pose.shift = vec3(numbers[0], numbers[1], numbers[2]);
     }
     given.read("reach", job->params.reach);
-    given.read_seconds("time_limit", job->params.time_limit);
+    given.read_seconds("time_limit", job->params.limits.time_limit);
     given.read("device", job->device);
     return told(run(watched.shared, given.progress(), [job] { return make(*job); }),
                 [&](pasted made) -> nb::object { return dict_of(std::move(made)); });

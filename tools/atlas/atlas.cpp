@@ -175,11 +175,10 @@ private:
         }
         // The certificate is of what the files will have.
         if (params.origin.y < 0) store_in_gltf(params);
-        params.observer = [this](const atlas_progress& p)
+        params.limits.observer = [this](const taut::progress& p)
         {
             keep(p.usable);
-            progress_.update(
-                {.phase = p.stage, .step = static_cast<int>(p.charts), .energy = p.value, .seconds = clock_.now()});
+            progress_.update({.phase = p.stage, .step = p.iteration, .energy = p.value, .seconds = clock_.now()});
             return !interrupted();
         };
         tell("device");
@@ -187,7 +186,7 @@ private:
         report_.queue = clock_.timed([&] { q = open_queue(options_.device, false); });
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
-        params.time_limit = clock_.left(options_.time_limit);
+        params.limits.time_limit = clock_.left(options_.time_limit);
         try
         {
             atlas_ = make_atlas(*q, m, params);

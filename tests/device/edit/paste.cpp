@@ -180,13 +180,13 @@ TEST_CASE("paste: a soft seam without a map in time is refused, and the hard one
 {
     queue q;
     paste p(q, test::sphere(4), mushroom(), 4,
-            {.pose = {.scale = 0.4}, .time_limit = std::chrono::duration<double>(1e-9)});
+            {.pose = {.scale = 0.4}, .limits = {.time_limit = std::chrono::duration<double>(1e-9)}});
     const auto hard = p.points();
     CHECK_THROWS_AS(p.pose({.scale = 0.4, .softness = 1}), paste_error);
     CHECK(p.points() == hard);
     CHECK(p.pose().softness == 0);
     CHECK_THROWS_AS(p.pose({.scale = 0.4, .softness = 0.5}), paste_error);
-    const paste_params never{.time_limit = std::chrono::duration<double>(0)};
+    const paste_params never{.limits = {.time_limit = std::chrono::duration<double>(-1)}};
     CHECK_THROWS_AS(never.validate(), parameter_error);
 }
 

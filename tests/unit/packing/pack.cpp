@@ -231,13 +231,13 @@ TEST_CASE("pack: ended at once, there still is a layout, and it holds")
 {
     const auto s = support::ragged_charts(100, 40, 20, 9);
     taut::pack_params params;
-    params.time_limit = taut::impl::budget::seconds(1e-9);
+    params.limits.time_limit = taut::impl::budget::seconds(1e-9);
     const auto limited = packed(s, params);
     CHECK_FALSE(limited.complete);
     CHECK(holds(s, limited));
     params = {};
     int asked = 0;
-    params.observer = [&](const taut::progress&) { return ++asked < 3; };
+    params.limits.observer = [&](const taut::progress&) { return ++asked < 3; };
     const auto ended = packed(s, params);
     CHECK(asked == 3);
     CHECK_FALSE(ended.complete);
@@ -336,7 +336,7 @@ TEST_CASE("pack: charts keep away from walls, and fill what these leave")
         }
     // A run that has no time has a layout, too; what is full has none.
     taut::pack_params params;
-    params.time_limit = taut::impl::budget::seconds(1e-9);
+    params.limits.time_limit = taut::impl::budget::seconds(1e-9);
     chart_set walls;
     add_wall(params, walls, 0, {0.25, 0.25}, {0.5, 0.5});
     const auto p = packed(squares(5), params);

@@ -16,16 +16,6 @@
 namespace taut
 {
 
-/// Progress of a run of make_atlas().
-struct atlas_progress
-{
-    std::string_view stage;                                  ///< "charts", "flatten", "pack" or "certify"
-    idx charts = 0;                                          ///< that are done in this stage
-    double value = std::numeric_limits<double>::quiet_NaN(); ///< mean energy of these, or the use of the squares
-    double seconds = 0;                                      ///< since the start
-    bool usable = false;                                     ///< a run that ends now has a result
-};
-
 /// Purpose of the charts of an atlas.
 enum class chart_preference
 {
@@ -75,7 +65,7 @@ struct atlas_params
     /// the first one's map. They do not count as overlaps.
     bool stack = false;
 
-    flatten_params flattening = {}; ///< its time limit, observer and initial map are overruled
+    flatten_params flattening = {}; ///< its limits and initial map are overruled
     pack_params packing = {};       ///< the same
 
     /// Lower left corner of the first tile, integers. {0, -1} is for files whose v runs downwards: their coordinates
@@ -85,11 +75,10 @@ struct atlas_params
     /// Rounding of coordinates by the file format, such as to floats: the certificate is of the results. Null: none.
     vec2 (*stored)(vec2) = nullptr;
 
-    /// Wall-clock limit of the whole call. Parts without a valid map by then fall back to planar-projection charts.
-    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
-
-    /// Callback several times a second; returning false ends the run.
-    std::function<bool(const atlas_progress&)> observer = {};
+    /// Limits of the whole call. Parts without a valid map by then fall back to planar-projection charts. The observer
+    /// is asked several times a second: progress::stage names the stage, progress::iteration counts the charts that are
+    /// done in it, progress::value is the mean energy of these, or the use of the squares.
+    run_limits limits = {};
 };
 
 } // namespace taut

@@ -38,7 +38,7 @@ class flat_charts
 
 public:
     flat_charts(queue& q, const mesh<triangle>& m, const atlas_params& params)
-        : queue_(q), mesh_(m), params_(params), facets_(facets(m)), budget_(params.time_limit)
+        : queue_(q), mesh_(m), params_(params), facets_(facets(m)), budget_(params.limits.time_limit)
     {
     }
 
@@ -73,11 +73,13 @@ protected:
         return [this, stage](const progress& p)
         {
             const bool in_time = budget_.in_time();
-            const bool wanted = !params_.observer || params_.observer({.stage = stage,
-                                                                       .charts = static_cast<idx>(p.iteration),
-                                                                       .value = p.value,
-                                                                       .seconds = budget_.total(),
-                                                                       .usable = usable_});
+            const auto& ask = params_.limits.observer;
+            const bool wanted = !ask || ask({.iteration = p.iteration,
+                                             .value = p.value,
+                                             .gradient = std::numeric_limits<double>::quiet_NaN(),
+                                             .seconds = budget_.total(),
+                                             .stage = stage,
+                                             .usable = usable_});
             report_.complete = report_.complete && in_time && wanted;
             return report_.complete;
         };
@@ -91,8 +93,7 @@ protected:
         if (exactly) params.tolerance = std::min(params.tolerance, 1e-9);
         params.max_iterations = std::min(params.max_iterations, steps);
         params.initial = initial;
-        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
-        params.observer = asking("flatten");
+        params.limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("flatten")};
         const double begin = budget_.total();
         auto flat = flatten_charts(queue_, charts, params);
         report_.seconds.flatten += budget_.total() - begin;
@@ -115,8 +116,7 @@ protected:
         usable_ = true; // whatever there is by the end of the time is laid as it is seen
         auto params = params_.charts;
         if (!factors_.empty()) params.weights = factors_;
-        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
-        params.observer = asking("charts");
+        params.limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("charts")};
         // What takes more steps at first is mostly cut after all of them.
         constexpr int few = 25;
         const auto first_maps = [this](const chart_mesh& charts, std::span<const vec2> start)
@@ -156,7 +156,7 @@ protected:
         const symmetric_half half(mesh_, facets_, *mirror_);
         std::vector<char> seams, together;
         atlas_params of_half = half.params(params_, seams, together);
-        of_half.time_limit = budget_.left();
+        of_half.limits.time_limit = budget_.left();
         flat_charts one(queue_, half.surface(), of_half);
         one.report_.seconds = report_.seconds;
         one.run();

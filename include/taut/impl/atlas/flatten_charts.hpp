@@ -34,12 +34,9 @@ struct flatten_params
     /// for which it is not valid get another start.
     std::span<const vec2> initial = {};
 
-    /// Wall-clock limit of the whole call.
-    std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
-
-    /// Callback after each step; returning false ends the run. progress::iteration counts finished charts,
+    /// Limits of the whole call. The observer is asked after each step: progress::iteration counts finished charts,
     /// progress::value is the mean energy of the current maps.
-    taut::observer observer = {};
+    run_limits limits = {};
 
     /// Throws parameter_error that names the field.
     void validate() const;

@@ -23,7 +23,7 @@ void flatten_params::validate() const
     if (!(tolerance >= 1e-12 && tolerance <= 1)) throw parameter_error("tolerance", "must be 1e-12 to 1");
     if (max_iterations < 0) throw parameter_error("max_iterations", "must not be negative");
     if (!(largest >= 0)) throw parameter_error("largest", "must not be negative");
-    if (!(time_limit.count() >= 0)) throw parameter_error("time_limit", "must not be negative");
+    limits.validate();
 }
 
 } // namespace taut
@@ -39,7 +39,7 @@ public:
         : queue_(q),
           charts_(charts),
           params_(params),
-          clock_(params.time_limit, params.observer),
+          clock_(params.limits.time_limit, params.limits.observer),
           work_(u(charts.charts()))
     {
         result_.charts.resize(work_.size());

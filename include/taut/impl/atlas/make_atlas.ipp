@@ -121,7 +121,7 @@ private:
                 flat[u(charts.surface.cells()[i][k])] = uv[3 * u(charts.cell_origins[i]) + k];
         const auto outlines = find_outlines(flat, charts.surface.cells(), charts.first_cell, charts.first_vertex);
         auto params = params_.packing;
-        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
+        params.limits.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
         return pack_outlined(flat, outlines, params, true).utilization;
     }
 
@@ -174,8 +174,7 @@ private:
         polygons_ = convex();
         if (polygons_.size() > 0) settle_charts(*charts_, polygons_, flat_, {});
         auto params = params_.packing;
-        params.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
-        params.observer = asking("pack");
+        params.limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("pack")};
         params.densities = densities_of(*charts_);
         params.groups = groups_of(*charts_);
         stacks_.reset();

@@ -46,11 +46,9 @@ struct segment_params
     /// Small charts are tried once more, unless it is 0.
     int unite_rounds = 1;
 
-    /// Time limit of the whole call, after which the current charts are returned, or pieces without maps.
-    impl::budget::seconds time_limit = impl::budget::unlimited;
-
-    /// Callback before each round and within it; returning false ends the run.
-    taut::observer observer = {};
+    /// Limits of the whole call, after which the current charts are returned, or pieces without maps. The observer is
+    /// asked before each round and within it.
+    run_limits limits = {};
 
     /// Throws parameter_error with the name of a field outside its domain.
     void validate() const
@@ -60,6 +58,7 @@ struct segment_params
         if (!(least_fill >= 0 && least_fill <= 1)) throw parameter_error("least_fill", "must be 0 to 1");
         if (cut_rounds < 0 || cut_rounds > 100) throw parameter_error("cut_rounds", "must be 0 to 100");
         if (unite_rounds < 0 || unite_rounds > 100) throw parameter_error("unite_rounds", "must be 0 to 100");
+        limits.validate();
     }
 };
 

@@ -334,8 +334,7 @@ private:
         params.weights = factors;
         params.least_fill = 0;
         params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
-        params.time_limit = std::max(c_.budget_.left(), budget::seconds(1e-6));
-        params.observer = c_.asking("charts");
+        params.limits = {std::max(c_.budget_.left(), budget::seconds(1e-6)), c_.asking("charts")};
         const auto maps = [this](const chart_mesh& charts, std::span<const vec2> start)
         { return c_.flatten(charts, start, std::numeric_limits<int>::max()); };
         const auto made = segment_surface(part.charts.surface, f, maps_by(maps), params);

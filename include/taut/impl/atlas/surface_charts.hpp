@@ -29,7 +29,7 @@ public:
           facets_(f),
           flatten_(flatten),
           params_(params),
-          budget_(params.time_limit, params.observer),
+          budget_(params.limits.time_limit, params.limits.observer),
           seam_(f.twin.size(), 0),
           uv_(f.twin.size(), vec2(0.0)),
           chart_(m.cells().size(), 0),

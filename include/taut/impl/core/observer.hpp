@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include <taut/impl/core/error.hpp>
@@ -15,13 +16,14 @@ namespace taut
 /// Progress of a run.
 struct progress
 {
-    int iteration = 0;   ///< accepted steps so far
-    double value = 0;    ///< f at the current iterate
-    double gradient = 0; ///< its relative gradient
-    double step = 0;     ///< the last accepted step
-    int evaluations = 0; ///< values computed so far
-    double seconds = 0;  ///< since the start
-    int level = 0;       ///< level of a nested iteration; 0: the problem itself
+    int iteration = 0;           ///< accepted steps so far
+    double value = 0;            ///< f at the current iterate
+    double gradient = 0;         ///< its relative gradient
+    double step = 0;             ///< the last accepted step
+    int evaluations = 0;         ///< values computed so far
+    double seconds = 0;          ///< since the start
+    int level = 0;               ///< level of a nested iteration; 0: the problem itself
+    std::string_view stage = {}; ///< of a call of several stages: of make_atlas() "charts", "flatten" or "pack"
     bool iterate =
         true; ///< a new iterate; false: in the middle of a line search, the other fields are the last iterate's
     bool usable = true; ///< a run that ends now has a result; false where one of several phases has none yet

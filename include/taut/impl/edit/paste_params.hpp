@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <taut/impl/core/error.hpp>
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/edit/rbf_basis.hpp>
 
@@ -44,9 +45,9 @@ struct paste_params
     /// Basis of the fields that bend target and feature. `linear` overshoots least.
     rbf_basis basis = rbf_basis::linear;
 
-    /// Time limit of the map of the feature to the target, for the first soft pose: a rim that is hard to fit takes an
+    /// Limits of the map of the feature to the target, for the first soft pose: a rim that is hard to fit takes an
     /// untangling, which may not end.
-    std::chrono::duration<double> time_limit{20};
+    run_limits limits = {.time_limit = std::chrono::seconds(20)};
 
     /// Maximum number of control points of each kind: along the rim, and fixed ones.
     idx controls = 300;
@@ -56,7 +57,7 @@ struct paste_params
     {
         pose.validate();
         if (!(reach >= 1.2) || !std::isfinite(reach)) throw parameter_error("reach", "must be 1.2 or more");
-        if (!(time_limit.count() > 0)) throw parameter_error("time_limit", "must be positive");
+        limits.validate();
         if (controls < 8) throw parameter_error("controls", "must be at least 8");
         impl::rbf_value(basis, 0, 1);
     }

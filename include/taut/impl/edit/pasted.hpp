@@ -316,8 +316,7 @@ private:
     void lay(const paste_pose& to)
     {
         const double far = *std::max_element(from_rim_.begin(), from_rim_.end());
-        auto laid =
-            lay_feature(queue_, part_.region, from_rim_, 0.4 * far, site_.place, site_.rim.uv, params_.time_limit);
+        auto laid = lay_feature(queue_, part_.region, from_rim_, 0.4 * far, site_.place, site_.rim.uv, params_.limits);
         bend_laid_ = {queue_, base_.field(std::vector<vec3>(moving_.size(), vec3(0.0))), laid.on_target};
         laid_ = std::move(laid);
         paste_pose soft = to;

@@ -28,7 +28,10 @@ class grid_packer
 {
 public:
     grid_packer(std::span<const piece> pieces, const pack_params& params)
-        : pieces_(pieces), params_(params), limits_(params.time_limit, params.observer), resolution_(params.resolution)
+        : pieces_(pieces),
+          params_(params),
+          limits_(params.limits.time_limit, params.limits.observer),
+          resolution_(params.resolution)
     {
         for (const piece& p : pieces_) area_ += p.area;
         order_.resize(pieces_.size());

@@ -31,7 +31,7 @@ class packer
 {
 public:
     packer(std::span<const piece> pieces, const pack_params& params, bool draft)
-        : pieces_(pieces), params_(params), draft_(draft), limits_(params.time_limit, params.observer)
+        : pieces_(pieces), params_(params), draft_(draft), limits_(params.limits.time_limit, params.limits.observer)
     {
         for (const piece& p : pieces_)
         {

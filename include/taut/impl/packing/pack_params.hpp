@@ -72,9 +72,9 @@ struct pack_params
     /// floats, tiles up to the eighth. 0 to 0.001.
     double rounding = 1e-6;
 
-    /// Time limit, after which the best layout so far is returned; a cheap shelf layout is made first.
-    impl::budget::seconds time_limit = impl::budget::unlimited;
-    taut::observer observer = {}; ///< asked every 8 charts of a layout
+    /// Limits, after which the best layout so far is returned; a cheap shelf layout is made first. The observer is
+    /// asked every 8 charts of a layout.
+    run_limits limits = {};
 
     /// Throws parameter_error.
     void validate(idx charts) const
@@ -101,7 +101,7 @@ struct pack_params
                 "empty or one tile a chart");
         for (const idx tile : groups) require(tile >= 0 && tile < tiles, "groups", "numbers of tiles");
         require(rounding >= 0 && rounding <= 1e-3, "rounding", "0 to 0.001");
-        require(time_limit.count() > 0, "time_limit", "positive");
+        limits.validate();
         require(densities.empty() || densities.size() == static_cast<std::size_t>(charts), "densities",
                 "empty or one number a chart");
         for (const impl::tile_wall& wall : walls)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -39,13 +38,11 @@ struct laid_feature
     }
 };
 
-/// Those vertices whose distance from the rim is below `most`. limit: of the map. Throws paste_error.
+/// Those vertices whose distance from the rim is below `most`. limits: of the map. Throws paste_error.
 inline laid_feature lay_feature(queue& q, const surface_region& region, std::span<const double> from_rim, double most,
-                                const landing_place& place, std::span<const vec2> rim_uv,
-                                std::chrono::duration<double> limit)
+                                const landing_place& place, std::span<const vec2> rim_uv, const run_limits& limits)
 {
-    const auto map =
-        parameterize(q, region.surface, {.constraints = rim_pins(region, rim_uv), .limits = {.time_limit = limit}});
+    const auto map = parameterize(q, region.surface, {.constraints = rim_pins(region, rim_uv), .limits = limits});
     if (!map)
         throw paste_error("the feature has no map with its rim on the target, which a soft seam needs: " +
                           map.reason() + "; choose softness 0, or another vertex, radius or scale");
