@@ -11,7 +11,6 @@
 #include <taut/impl/untangle/coarse_stage.hpp>
 #include <taut/impl/untangle/element_newton.hpp>
 #include <taut/impl/untangle/harmonic_stage.hpp>
-#include <taut/impl/untangle/lbfgs_stage.hpp>
 #include <taut/impl/untangle/newton_stage.hpp>
 #include <taut/impl/untangle/proofs/proof_stage.hpp>
 #include <taut/impl/untangle/pull_stage.hpp>
@@ -55,7 +54,6 @@ inline untangle_stages<tetrahedron> solid_host_stages()
     untangle_stages<tetrahedron> stages;
     stages.push_back(std::make_unique<harmonic_stage<tetrahedron>>());
     stages.push_back(std::make_unique<proof_stage>());
-    stages.push_back(std::make_unique<lbfgs_stage<tetrahedron>>());
     return stages;
 }
 
