@@ -6,8 +6,8 @@
 Copies the tree to build/ablation, puts a switch at each strategy (strategies.py), builds the program there, and runs the
 corpora (corpora.py): as it is, and with each strategy switched off on those cases that come to it; no other result can
 differ. A case counts as another answer if its exit code, or its energy by more than 0.1 %, is another one. Times are
-seconds of the processor in user mode, the mean of the runs with everything (two), as machines may be shared. Results
-are kept in build/ablation/results.json and not measured again; --fresh begins anew.
+seconds of the processor in user mode, as machines may be shared; that of the whole is of its second run, since the first
+compiles kernels. Results are kept in build/ablation/results.json and not measured again; --fresh begins anew.
 """
 
 import argparse
@@ -76,7 +76,7 @@ class Runs:
             child.returncode = os.waitstatus_to_exitcode(status)
         stats = json.loads((folder / "stats.json").read_text()) if (folder / "stats.json").exists() else {}
         energy = stats.get("energy", stats.get("mean_distortion"))
-        result = {"code": child.returncode, "seconds": usage.ru_utime, "energy": energy, "stage": stats.get("stage"),
+        result = {"code": child.returncode, "seconds": usage.ru_utime, "energy": energy, "stage": stats.get("stage"), "least": stats.get("min_relative_det"),
                   "seam": stats.get("seam_length"), "charts": stats.get("charts") if isinstance(stats.get("charts"), int) else None,
                   "reached": reached.read_text().split("\n")[:-1] if reached.exists() else []}
         with self.lock:
@@ -91,11 +91,13 @@ def good(r):
 
 
 def differs(before, now):
-    """How the answer differs: lost, found, worse, better, or None."""
+    """How the answer differs: lost, found, worse, better (energy), thinner (a smallest element below half), or None."""
     if before["code"] != now["code"]:
         return "lost" if good(before) else "found" if good(now) else None
     if before["energy"] and now["energy"] and abs(now["energy"] - before["energy"]) > 1e-3 * abs(before["energy"]):
         return "worse" if now["energy"] > before["energy"] else "better"
+    if (before.get("least") or 0) > 0 and now.get("least") is not None and now["least"] < 0.5 * before["least"]:
+        return "thinner"
     return None
 
 
@@ -105,30 +107,30 @@ def row(name, off, cases, runs):
     slower = 0
     for case in cases:
         key = runs.key(case, off)
-        with_all = [runs.all[k] for k in (runs.key(case, ()), runs.key(case, (), 1)) if k in runs.all]
-        if key not in runs.all or not with_all:
+        whole = runs.all.get(runs.key(case, (), 1))  # the first run may have compiled kernels
+        if key not in runs.all or not whole:
             continue
         met += 1
-        kind = differs(with_all[-1], runs.all[key])
+        kind = differs(whole, runs.all[key])
         if kind:
             kinds[kind] = kinds.get(kind, 0) + 1
             names.setdefault(kind, []).append(case.name)
-        mean = sum(r["seconds"] for r in with_all) / len(with_all)
-        if good(runs.all[key]) == good(with_all[-1]):
-            before += mean
+        if good(runs.all[key]) == good(whole):
+            before += whole["seconds"]
             now += runs.all[key]["seconds"]
-            slower += runs.all[key]["seconds"] > 1.1 * mean + 0.1
+            slower += runs.all[key]["seconds"] > 1.1 * whole["seconds"] + 0.05
     return {"name": name, "cases": met, "answers": kinds, "names": names, "before": before, "now": now,
             "slower": slower, "ratio": now / before if before else None}
 
 
 def table(rows):
-    lines = ["| strategy | cases | lost | found | energy worse, better | time without it | slower cases |", "|---|---|---|---|---|---|---|"]
+    lines = ["| strategy | cases | lost | found | energy worse, better | thinner | time without it | slower cases |",
+             "|---|---|---|---|---|---|---|---|"]
     for r in rows:
         a = r["answers"]
         time = f"{r['ratio']:.2f} of {r['before']:.1f} s" if r["ratio"] else "-"
         lines.append(f"| {r['name']} | {r['cases']} | {a.get('lost', 0)} | {a.get('found', 0)} | "
-                     f"{a.get('worse', 0)}, {a.get('better', 0)} | {time} | {r['slower']} |")
+                     f"{a.get('worse', 0)}, {a.get('better', 0)} | {a.get('thinner', 0)} | {time} | {r['slower']} |")
     return "\n".join(lines)
 
 

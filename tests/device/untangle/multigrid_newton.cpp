@@ -10,8 +10,8 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
+#include <support/regularized_sum.hpp>
 #include <taut/impl/untangle/element_newton.hpp>
-#include <taut/impl/untangle/regularized_sum.hpp>
 #include <taut/impl/untangle/untangle_on_device.hpp>
 
 namespace

@@ -13,7 +13,7 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/untangle/device/operator_step.hpp>
+#include <support/operator_step.hpp>
 #include <taut/impl/untangle/device/untangle_operator.hpp>
 
 namespace

@@ -8,9 +8,9 @@
 #include <doctest/doctest.h>
 #include <support/meshes.hpp>
 
+#include <support/regularized_sum.hpp>
 #include <taut/impl/energy/modes.hpp>
 #include <taut/impl/untangle/epsilon_schedule.hpp>
-#include <taut/impl/untangle/regularized_sum.hpp>
 
 namespace
 {

@@ -76,8 +76,7 @@ private:
             return chosen;
         }
         chosen.push_back(std::make_unique<harmonic_stage<triangle>>());
-        chosen.push_back(
-            std::make_unique<newton_stage<triangle>>(newton_stage_params{"newton", untangle_start::harmonic}));
+        chosen.push_back(std::make_unique<newton_stage<triangle>>());
         return chosen;
     }
 

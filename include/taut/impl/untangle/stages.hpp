@@ -11,7 +11,6 @@
 #include <taut/impl/untangle/coarse_stage.hpp>
 #include <taut/impl/untangle/element_newton.hpp>
 #include <taut/impl/untangle/harmonic_stage.hpp>
-#include <taut/impl/untangle/lbfgs_stage.hpp>
 #include <taut/impl/untangle/newton_stage.hpp>
 #include <taut/impl/untangle/proofs/proof_stage.hpp>
 #include <taut/impl/untangle/pull_stage.hpp>
@@ -21,51 +20,31 @@ namespace taut::impl
 
 /// The stages of the plane that need no device:
 ///
-/// coarse a coarse level alone, and its map prolonged harmonic the harmonic map alone newton from the harmonic map,
-/// towards the shapes at rest pull from an injective map, whose elements stay positive while springs pull it to the
-/// fixed coordinates stretch the same towards regular triangles, with detours where the springs have jammed regular
-/// from the harmonic map, towards regular triangles best from the best map so far, towards the shapes at rest laid from
-/// an injective map that ignores fixed coordinates, towards the shapes at rest shape from the harmonic map, shape only
-/// lbfgs as newton, without second derivatives
+/// coarse: a coarse level alone, and its map prolonged. harmonic: the harmonic map alone. newton: from the harmonic
+/// map, towards the shapes at rest. pull: from an injective map, whose elements stay positive while springs pull it to
+/// the fixed coordinates. stretch: the same towards regular triangles, with detours where the springs have jammed.
 ///
 /// In the best order for an entirely pinned outline, with which a map without flips has no branch points; else those
 /// that create none come first.
 inline untangle_stages<triangle> host_stages(bool outline_pinned)
 {
-    using enum untangle_start;
-    using enum wanted_shapes;
     untangle_stages<triangle> stages;
-    const auto follow = [&](newton_stage_params p)
-    { stages.push_back(std::make_unique<newton_stage<triangle>>(std::move(p))); };
     const auto pull = [&] { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"})); };
-    const auto stretch = [&](int share) {
-        stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", regular, 0.1, true, share}));
+    const auto stretch = [&](int share)
+    {
+        stages.push_back(
+            std::make_unique<pull_stage>(pull_stage_params{"stretch", wanted_shapes::regular, 0.1, true, share}));
     };
-    const auto harmonic_map = [&] { stages.push_back(std::make_unique<harmonic_stage<triangle>>()); };
+    const auto harmonic_and_newton = [&]
+    {
+        stages.push_back(std::make_unique<harmonic_stage<triangle>>());
+        stages.push_back(std::make_unique<newton_stage<triangle>>());
+    };
     stages.push_back(std::make_unique<coarse_stage>());
-    if (outline_pinned)
-    {
-        harmonic_map();
-        follow({"newton", harmonic, rest, 1});
-        pull();
-        follow({"regular", harmonic, regular, 1});
-        follow({"best", best, rest, 1});
-        follow({"laid", laid, rest, 1});
-        follow({"shape", harmonic, rest, 0});
-        stretch(1);
-    }
-    else
-    {
-        pull();
-        stretch(10); // what it does not solve, others hardly ever do
-        follow({"best", best, rest, 1});
-        harmonic_map();
-        follow({"newton", harmonic, rest, 1});
-        follow({"regular", harmonic, regular, 1});
-        follow({"laid", laid, rest, 1});
-        follow({"shape", harmonic, rest, 0});
-    }
-    stages.push_back(std::make_unique<lbfgs_stage<triangle>>());
+    if (outline_pinned) harmonic_and_newton();
+    pull();
+    stretch(outline_pinned ? 1 : 10); // what it does not solve on a free boundary, others hardly ever do
+    if (!outline_pinned) harmonic_and_newton();
     return stages;
 }
 
@@ -75,7 +54,6 @@ inline untangle_stages<tetrahedron> solid_host_stages()
     untangle_stages<tetrahedron> stages;
     stages.push_back(std::make_unique<harmonic_stage<tetrahedron>>());
     stages.push_back(std::make_unique<proof_stage>());
-    stages.push_back(std::make_unique<lbfgs_stage<tetrahedron>>());
     return stages;
 }
 

@@ -56,8 +56,7 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
         stages.push_back(std::make_unique<impl::harmonic_stage<Element>>());
         stages.push_back(std::move(on_device));
         stages.push_back(std::make_unique<impl::proof_stage>());
-        stages.push_back(std::make_unique<impl::newton_stage<Element>>(
-            impl::newton_stage_params{"newton", impl::untangle_start::harmonic}));
+        stages.push_back(std::make_unique<impl::newton_stage<Element>>());
         stages.push_back(std::make_unique<impl::lead_stage<Element>>(q));
         if (!problem.outline_pinned()) std::swap(stages[3], stages[4]);
         return untangle(problem, std::move(stages), std::move(newton), params);

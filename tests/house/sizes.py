@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: MIT
+"""sizes.py ROOT [--list]: rooms of the library have one subject and at most 30 files with their sub-folders, headers at
+most 8 internal includes, functions at most 60 lines. What is larger stands here with its reason and may not grow."""
+import pathlib
+import re
+import sys
+
+FILES, INCLUDES, LINES = 30, 8, 60
+
+# Rooms above 30 files: the most they may have until they are cut by subject.
+ROOMS = {
+    "io": (65, "a reader and a writer of each format"),
+    "atlas": (60, "cutting, seams and symmetry are to be rooms"),
+    "map": (50, "sessions, overlap and entry points; to be one running map"),
+    "untangle": (50, "stages, proofs and the device"),
+    "edit": (40, "regions, radial basis functions and paste"),
+    "compute": (40, "the only room that sees OpenCL"),
+    "dist": (35, "MPI and PETSc, apart from all else"),
+    "solve": (35, "methods and line searches"),
+}
+
+# Headers above 8 includes of the library. Public headers gather what belongs together and have no bound.
+GATHER = {
+    "impl/map/session/turned_draft.hpp": 14,
+    "impl/atlas/flat_charts.hpp": 14,
+    "impl/atlas/make_atlas.ipp": 12,
+    "impl/io/volume/read_volume.ipp": 11,
+    "impl/objective/map_objective.hpp": 10,
+    "impl/untangle/state.hpp": 9,
+    "impl/untangle/coarse_stage.hpp": 9,
+    "impl/map/parameterize_params.hpp": 9,
+    "impl/map/deform_params.hpp": 9,
+    "impl/atlas/segment.ipp": 9,
+    "impl/atlas/chart_batch.hpp": 9,
+}
+
+# Functions above 60 lines, each with its reason; none above 110.
+LONGEST = 110
+LONG = {
+    "impl/atlas/atlas_summary.hpp summarize": "one field of the summary after another",
+    "impl/atlas/chart_mesh.hpp cut_charts": "steps of one numbering",
+    "impl/atlas/cutting/overlap_layers.hpp find_overlaps": "a sweep with its state as locals",
+    "impl/atlas/segment.ipp cut": "one loop over candidates, to be cut with the atlas as values",
+    "impl/atlas/segment.ipp try_pairs": "the same",
+    "impl/atlas/segment.ipp unite_round": "the same",
+    "impl/atlas/short_charts.hpp flatten_within_bound": "a search with six thresholds, to be cut with the atlas as values",
+    "impl/edit/detail/landing.hpp land": "attempts in turn, each with its own way out",
+    "impl/edit/feature_map.ipp make_feature_map": "steps of one sampling",
+    "impl/edit/pasted.hpp stitch": "steps of one numbering",
+    "impl/exact/vanishing_sum.hpp fit_nonnegative": "Lawson and Hanson's algorithm as printed",
+    "impl/gltf/new_gltf.hpp new_gltf_source": "the text of one file, from top to bottom",
+    "impl/io/cell_faces.hpp cell_faces_of": "one case per kind of cell",
+    "impl/io/detail/polygons.hpp split": "one case per number of corners",
+    "impl/io/volume/subdivided.ipp plain_subdivided": "one section of the file after another",
+    "impl/map/smooth.hpp smooth": "its local functions, which share the mesh and its labels",
+    "impl/packing/certificate.hpp certify_outlined": "a sweep with its state as locals",
+    "impl/packing/outlines.hpp append_outline": "a walk with its state as locals",
+    "impl/packing/raster.hpp rasterize": "inner loop, where calls cost",
+    "impl/repair/fans.hpp part_repeated": "a walk with its state as locals",
+    "impl/repair/winding.hpp wind": "a walk with its state as locals",
+    "impl/solve/line/brent.hpp brent": "Brent's algorithm as printed",
+    "impl/solve/pcg.hpp solve": "one iteration with its state as locals",
+    "impl/sparse/elimination_tree.hpp eliminate": "one elimination of minimum degree, as in AMD",
+    "impl/start/make_barycentric_system.hpp make_barycentric_system": "one pass that counts and one that fills",
+    "impl/symbolic/reverse.hpp propagate": "one case per operation",
+    "impl/symbolic/statement_writer.hpp expression": "one case per operation",
+}
+
+
+def functions(text):
+    """Names and lengths, in lines from the first of the signature, of functions with a body of their own lines."""
+    lines = text.split("\n")
+    for i, line in enumerate(lines):
+        if not re.fullmatch(r" *\{", line) or i == 0:
+            continue
+        indent = len(line) - 1
+        begin = i - 1
+        while begin > 0 and (len(lines[begin]) - len(lines[begin].lstrip()) > indent or lines[begin].startswith(" " * indent + ":")):
+            begin -= 1
+        head = " ".join(part.strip() for part in lines[begin:i])
+        if re.match(r"(if|for|while|else|do|switch|try|catch|namespace|struct|class|enum|union|\[|return|const auto|auto|static const)\b", head):
+            continue
+        name = re.search(r"([~\w]+|operator\(\)|operator\S+)\s*\(", head)
+        if not name or "[" in head[:name.start()] or "=" in head[:name.start()]:
+            continue
+        end = next((k for k in range(i, len(lines)) if lines[k].startswith(" " * indent + "}")), i)
+        yield name.group(1), end - begin + 1
+
+
+def main():
+    root = pathlib.Path(sys.argv[1]) / "include/taut"
+    failures, rooms, long = [], {}, {}
+    for file in sorted(root.rglob("*.[hi]pp")):
+        name = str(file.relative_to(root))
+        if "compute/kernels/" in name:
+            continue
+        text = file.read_text()
+        if name.startswith("impl/"):
+            room = name.split("/")[1]
+            rooms[room] = rooms.get(room, 0) + 1
+            count = len(re.findall(r"^#include <taut/", text, re.M))
+            if count > GATHER.get(name, INCLUDES):
+                failures.append(f"{name}: {count} includes of the library, at most {GATHER.get(name, INCLUDES)}")
+        for function, length in functions(text):
+            if length > LINES:
+                long[f"{name} {function}"] = length
+    for room, count in rooms.items():
+        most = ROOMS.get(room, (FILES, ""))[0]
+        if count > most:
+            failures.append(f"impl/{room}: {count} files with its sub-folders, at most {most}")
+    for key, length in long.items():
+        most = LONGEST if key in LONG else LINES
+        if length > most:
+            failures.append(f"{key}: {length} lines, at most {most}; cut it, or list it with a reason")
+    failures += [f"{key}: not above {LINES} lines any more; take it off the list" for key in LONG if key not in long]
+    if "--list" in sys.argv:
+        print("\n".join(f"{count:4} {room}" for room, count in sorted(rooms.items(), key=lambda r: -r[1])))
+        print("\n".join(f"{length:4} {key}" for key, length in sorted(long.items(), key=lambda f: -f[1])))
+    print("\n".join(failures))
+    sys.exit(1 if failures else 0)
+
+
+main()
