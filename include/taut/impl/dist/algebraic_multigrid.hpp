@@ -56,6 +56,7 @@ public:
             ++fallbacks_;
             make(rows, dimension, near);
         }
+        if (setups_ == 0 && safety_ == 0 && !factors_) require_used();
         ++setups_;
     }
 
@@ -73,6 +74,29 @@ public:
 
 private:
     static constexpr int last_ = 2; ///< the block diagonal
+
+    /// Of options, so that those of a program are not ours.
+    std::string prefix() const { return "taut_" + std::to_string(safety_) + (factors_ ? "_lu_" : "_"); }
+
+    /// Collective. Throws parameter_error for options of the user that nothing has asked for; those of levels are left
+    /// to meshes that have some.
+    void require_used()
+    {
+        PetscInt count = 0;
+        char **names = nullptr, **values = nullptr;
+        require(PetscOptionsLeftGet(nullptr, &count, &names, &values));
+        std::string idle;
+        for (PetscInt k = 0; k < count; ++k)
+        {
+            const std::string name = names[k], own = prefix();
+            if (!name.starts_with(own) || name.starts_with(own + "mg_")) continue;
+            const std::string word = '-' + name.substr(own.size());
+            if ((params_.options + ' ').find(word + ' ') != std::string::npos) idle = word;
+        }
+        require(PetscOptionsLeftRestore(nullptr, &count, &names, &values));
+        if (all_.any(!idle.empty()))
+            throw parameter_error("solver.options", "PETSc's preconditioner has no option " + idle + "; leave it out");
+    }
 
     /// Options of PETSc, by what one may trust. Chebyshev's bounds are estimated for each new matrix, with a margin:
     /// the first ones turn the smoother indefinite later.
@@ -98,8 +122,9 @@ private:
         PC made = nullptr;
         require(PCCreate(all_.raw(), &made));
         pc_ = petsc_preconditioner(made);
-        // Under a prefix of its own, so that the options of a program are not ours.
-        const std::string prefix = "taut_" + std::to_string(safety_) + (factors_ ? "_lu_" : "_");
+        if (params_.preconditioner == preconditioner::block_jacobi && !params_.options.empty())
+            throw parameter_error("solver.options", "the block diagonal has none; leave them out");
+        const std::string prefix = this->prefix();
         require(PetscOptionsPrefixPush(nullptr, prefix.c_str()));
         const auto inserted = PetscOptionsInsertString(nullptr, options().c_str());
         require(PetscOptionsPrefixPop(nullptr));

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -263,6 +264,14 @@ private:
         std::vector<idx> rim(site_.rim.uv.size());
         for (std::size_t i = 0; i < rim.size(); ++i) rim[i] = static_cast<idx>(i);
         moving_ = some_of(rim, params_.controls);
+        auto places = pick(moving_, site_.rim.on_target);
+        const auto before = [](const vec3& a, const vec3& b)
+        { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
+        std::sort(places.begin(), places.end(), before);
+        if (std::adjacent_find(places.begin(), places.end()) != places.end())
+            throw paste_error(
+                "points of the feature's rim are at one place on the target, as coordinates there are too "
+                "coarse for it; choose a larger scale");
 
         // The target bends between the rim of the feature and a band along the rim of the place.
         const auto& region = site_.place.region;
