@@ -16,7 +16,8 @@ namespace taut::fuzz
 
 /// What an input may cost, in proportion to its bytes: memory at once, and bytes asked for one after the other, which
 /// count the work of who copies again and again, the same on every machine; and processor time, some hundred times what
-/// a reader takes under sanitizers, so that only what grows with a square is beyond it. Ends the fuzzer where it was more.
+/// a reader takes under sanitizers, so that only what grows with a square is beyond it. Ends the fuzzer where it was
+/// more.
 class budget
 {
 public:

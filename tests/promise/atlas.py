@@ -286,6 +286,18 @@ def what_repair_turns_is_told(taut):
     assert "the chart of triangle 0 is folded" in error and "as the files number triangles: 1" in error, error
 
 
+def what_has_no_place_is_left_out(taut):
+    """eval judges the faces that have a place in the map, and names the others."""
+    points, faces = grid(3, 3, lambda i, j: 0.0)
+    lines = ["vt %r %r" % (p[0] / 4, p[1] / 4) for p in points]
+    lines += ["f " + " ".join(f"{v + 1}/{v + 1}" if k != 4 else str(v + 1) for v in f) for k, f in enumerate(faces)]
+    taut.write("some.obj", obj(points, []) + "\n".join(lines) + "\n")
+    run = taut("eval", "some.obj", "--json")
+    said = json.loads(run.stdout)
+    assert said["left_out"] == 2 and said["flipped"] == 0 and said["faces"] == 16, said
+    assert "2 triangles (8, 9) without texture coordinates: left out" in taut("eval", "some.obj").stderr
+
+
 def crossing_slits(taut):
     """A polygon whose slits cross at a corner is no surface: --repair leaves it out and says so, and maps the rest."""
     flat, face = slit(circle(20, 4, 0, 0), [circle(6, 0.5, 2 * math.cos(a), 2 * math.sin(a), True) for a in (1, 3.1, 5.2)])
@@ -379,4 +391,4 @@ def pinned_charts_hold(taut):
 
 
 if __name__ == "__main__":
-    main(rounding_is_settled, doublets, forced_diagonals, parted_polygons, what_repair_turns_is_told, crossing_slits, faces_with_holes, polygons_stay_convex, pinned_charts_hold)
+    main(rounding_is_settled, doublets, forced_diagonals, parted_polygons, what_repair_turns_is_told, what_has_no_place_is_left_out, crossing_slits, faces_with_holes, polygons_stay_convex, pinned_charts_hold)

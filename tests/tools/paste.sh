@@ -42,7 +42,7 @@ test_paste()
 
     expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --map small.exr --texels 8 -q
     silent err
-    expect 4 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --scale 1e-17
+    expect 4 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --scale 1e-12
     error_says 'larger scale'
     expect 4 paste --source source.obj --at 312 --radius 5 --target target.off --onto 480 -o out.obj
     error_says 'does not fit|too near|larger'

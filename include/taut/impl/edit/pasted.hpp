@@ -9,7 +9,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -18,6 +17,7 @@
 #include <taut/impl/edit/detail/laid_feature.hpp>
 #include <taut/impl/edit/paste_params.hpp>
 #include <taut/impl/edit/paste_report.hpp>
+#include <taut/impl/edit/rbf_error.hpp>
 #include <taut/impl/edit/self_intersections.hpp>
 
 namespace taut::impl
@@ -41,7 +41,7 @@ public:
     {
         report_.way = site_.rim.way;
         stitch();
-        timed(report_.seconds.factor, [&] { factor(); });
+        timed(report_.seconds.factor, [&] { interpolated([&] { factor(); }); });
         pose(params_.pose);
     }
 
@@ -51,7 +51,7 @@ public:
     void pose(const paste_pose& to)
     {
         to.validate();
-        timed(report_.seconds.transform, [&] { bend(to); });
+        timed(report_.seconds.transform, [&] { interpolated([&] { bend(to); }); });
         params_.pose = to;
     }
     /// Puts another surface within the same rim, say a tessellation of the feature's map. Throws parameter_error for
@@ -68,7 +68,7 @@ public:
             throw parameter_error("part", "has another rim than the feature; paste it as one of its own");
         part_ = std::move(part);
         stitch();
-        timed(report_.seconds.factor, [&] { factor(); });
+        timed(report_.seconds.factor, [&] { interpolated([&] { factor(); }); });
         pose(params_.pose);
     }
 
@@ -164,6 +164,21 @@ private:
     {
         params.validate();
         return params;
+    }
+
+    /// Throws paste_error where points are too near to each other to interpolate between them.
+    template <class Work>
+    static void interpolated(const Work& work)
+    {
+        try
+        {
+            work();
+        }
+        catch (const rbf_error&)
+        {
+            throw paste_error("points of the feature's rim are at one place on the target, as coordinates there are "
+                              "too coarse for it; choose a larger scale");
+        }
     }
 
     template <class Work>
@@ -264,14 +279,6 @@ private:
         std::vector<idx> rim(site_.rim.uv.size());
         for (std::size_t i = 0; i < rim.size(); ++i) rim[i] = static_cast<idx>(i);
         moving_ = some_of(rim, params_.controls);
-        auto places = pick(moving_, site_.rim.on_target);
-        const auto before = [](const vec3& a, const vec3& b)
-        { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); };
-        std::sort(places.begin(), places.end(), before);
-        if (std::adjacent_find(places.begin(), places.end()) != places.end())
-            throw paste_error(
-                "points of the feature's rim are at one place on the target, as coordinates there are too "
-                "coarse for it; choose a larger scale");
 
         // The target bends between the rim of the feature and a band along the rim of the place.
         const auto& region = site_.place.region;
