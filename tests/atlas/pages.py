@@ -217,6 +217,8 @@ def test_seams_are_weighed():
     assert "0.001" in run("atlas", "ball.obj", "-o", "x.obj", "--seam-weights", "edges.txt", code=3)
     (FOLDER / "edges.txt").write_text("0 99999 2\n")
     assert "whole numbers from 0" in run("atlas", "ball.obj", "-o", "x.obj", "--seam-weights", "edges.txt", code=3)
+    (FOLDER / "edges.txt").write_text("0 %d 2\n" % (len(z) - 1))
+    assert "have no edge" in run("atlas", "ball.obj", "-o", "x.obj", "--seam-weights", "edges.txt", code=4)
     assert "leave out" in run("atlas", "out.obj", "-o", "x.obj", "--charts", "keep", "--hide-seams", "mild", code=2)
 
 

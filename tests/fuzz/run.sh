@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # run.sh READER FOLDER runs|seconds N [SEED]: runs the fuzzer of a reader that was built into FOLDER, from the committed
 # corpus. runs: N inputs, the same each time for the same seed (1). seconds: others each time, from what it learnt before,
-# too. Inputs have up to 256 kB. One that breaks a promise, crashes, hangs, takes 2 GB or more memory than its bytes are
-# worth (budget.hpp) ends the run and is kept in FOLDER.
+# too. Inputs have up to 256 kB. One that breaks a promise, crashes, hangs, takes 2 GB, or more memory or processor time
+# than its bytes are worth (budget.hpp) ends the run and is kept in FOLDER.
 set -eu
 reader=$1 folder=$2 limit=$3 n=$4
 corpus=$(cd "$(dirname "$0")" && pwd)/corpus/$reader

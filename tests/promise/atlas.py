@@ -269,6 +269,47 @@ def parted_polygons(taut):
     assert "1 face (0) of which repair has left pieces apart" in run.stderr, run.stderr
 
 
+def what_repair_turns_is_told(taut):
+    """A triangle that repair turns over stays as the file has it: its image is mirrored, and the run says so. Reasons
+    have the numbers of the file."""
+    points, faces = grid(6, 6, lambda i, j: 0.3 * math.sin(i))
+    faces = triangulated(faces)
+    faces[31] = faces[31][::-1]
+    taut.write("turned.obj", obj(points, faces))
+    for name in ("out.obj", "out.glb"):
+        run = taut("atlas", "turned.obj", "-o", name, "--repair")
+        assert "1 triangle (31) turned over by --repair" in run.stderr, run.stderr
+    assert json.loads(taut("eval", "out.obj", "--json").stdout)["flipped"] == 1
+    taut.write("folded.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 1 0.2\n"
+               "f 1/1 1/1 2/2\nf 1/1 2/2 3/3\nf 1/1 3/3 4/4\n")
+    error = taut("atlas", "folded.obj", "-o", "x.obj", "--repair", "--charts", "pack", code=6).stderr
+    assert "the chart of triangle 0 is folded" in error and "as the files number triangles: 1" in error, error
+
+
+def what_has_no_place_is_left_out(taut):
+    """eval judges the faces that have a place in the map, and names the others."""
+    points, faces = grid(3, 3, lambda i, j: 0.0)
+    lines = ["vt %r %r" % (p[0] / 4, p[1] / 4) for p in points]
+    lines += ["f " + " ".join(f"{v + 1}/{v + 1}" if k != 4 else str(v + 1) for v in f) for k, f in enumerate(faces)]
+    taut.write("some.obj", obj(points, []) + "\n".join(lines) + "\n")
+    run = taut("eval", "some.obj", "--json")
+    said = json.loads(run.stdout)
+    assert said["left_out"] == 2 and said["flipped"] == 0 and said["faces"] == 16, said
+    assert "2 triangles (8, 9) without texture coordinates: left out" in taut("eval", "some.obj").stderr
+
+
+def crossing_slits(taut):
+    """A polygon whose slits cross at a corner is no surface: --repair leaves it out and says so, and maps the rest."""
+    flat, face = slit(circle(20, 4, 0, 0), [circle(6, 0.5, 2 * math.cos(a), 2 * math.sin(a), True) for a in (1, 3.1, 5.2)])
+    points = [(x, y, 0.0) for x, y in flat] + [(9, 0, 0), (10, 0, 0), (9, 1, 0)]
+    n = len(flat)
+    taut.write("crossing.obj", obj(points, [face, [n, n + 1, n + 2]]))
+    taut("atlas", "crossing.obj", "-o", "out.obj", code=4)
+    run = taut("atlas", "crossing.obj", "-o", "out.obj", "--repair")
+    _, faces, maps = read_obj(taut.read("out.obj").decode())
+    assert [None in m for m in maps] == [True, False] and "1 face (0) of which repair has left pieces apart" in run.stderr, run.stderr
+
+
 def slit(outer, holes):
     """One face of an outline and holes, which it runs into along slits from its first corner."""
     points, face = list(outer), list(range(len(outer)))
@@ -350,4 +391,4 @@ def pinned_charts_hold(taut):
 
 
 if __name__ == "__main__":
-    main(rounding_is_settled, doublets, forced_diagonals, parted_polygons, faces_with_holes, polygons_stay_convex, pinned_charts_hold)
+    main(rounding_is_settled, doublets, forced_diagonals, parted_polygons, what_repair_turns_is_told, what_has_no_place_is_left_out, crossing_slits, faces_with_holes, polygons_stay_convex, pinned_charts_hold)

@@ -26,6 +26,7 @@ test_paste()
     expect 0 paste --source source.obj --region faces --target out.obj --onto 160 -o again.obj --rotate 30 --scale 0.5 \
         --softness 1 --triangles 500 --map map.exr --texels 128 --stats stats.json -q
     silent out
+    silent err
     keys stats.json feature_triangles map.footprint map.round_trip map.distance rim_vertices
     says values '^rim_vertices=16$'
     expect 0 check again.obj
@@ -39,6 +40,10 @@ test_paste()
     says piped.obj '^f [0-9]+ [0-9]+ [0-9]+$' '^f [0-9]+/[0-9]+ '
     says err '^result '
 
+    expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --map small.exr --texels 8 -q
+    silent err
+    expect 4 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --scale 1e-12
+    error_says 'larger scale'
     expect 4 paste --source source.obj --at 312 --radius 5 --target target.off --onto 480 -o out.obj
     error_says 'does not fit|too near|larger'
     expect 4 paste --source source.obj --at 9999 --radius 0.2 --target target.off --onto 480 -o out.obj

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -202,7 +203,24 @@ private:
             report_.notes.push_back("the stretch is " + number(atlas_->report.stretch_l2, 4) +
                                     ", above --max-stretch; `--prefer packing` cuts further");
         if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;
-        if (!*atlas_) throw no_valid_map(atlas_->report.reason);
+        if (!*atlas_) throw no_valid_map(atlas_->report.reason + in_files(atlas_->report.reason_triangles));
+    }
+
+    /// What the files call triangles of the surface, where they have other numbers.
+    std::string in_files(std::span<const idx> triangles) const
+    {
+        std::string text;
+        bool other = sources_.size() > 1;
+        for (const idx t : triangles)
+        {
+            const auto after = std::upper_bound(joined_->first_cell.begin(), joined_->first_cell.end(), t);
+            const auto i = static_cast<std::size_t>(after - joined_->first_cell.begin()) - 1;
+            const idx own = sources_[i]->cell_origin(t - joined_->first_cell[i]);
+            other = other || own != t;
+            text += (text.empty() ? "" : ", ") + std::to_string(own);
+            if (sources_.size() > 1) text += " of " + options_.inputs[i];
+        }
+        return other && !text.empty() ? "; as the files number triangles: " + text : std::string();
     }
 
     /// Texture coordinates are floats, or fractions where these hold what is pinned as it is and floats do not.

@@ -84,8 +84,9 @@ void declare_packing(CLI::App& app, atlas_options& o)
                    "Texels between charts, and from them to the border of the square; default 2, or for --mip-levels")
         ->type_name("PX")
         ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"));
-    app.add_option("--mip-levels", o.mip_levels,
-                   "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels; 0 to 10")
+    app.add_option(
+           "--mip-levels", o.mip_levels,
+           "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels; 0 to 10")
         ->type_name("N")
         ->check(CLI::Range(0, 10).description(""));
     app.add_option("--resolution", o.size,
@@ -101,7 +102,8 @@ void declare_packing(CLI::App& app, atlas_options& o)
         ->type_name("N")
         ->check(CLI::Range(1, 65536).description(""));
     app.add_option("--align", o.align,
-                   "Side of the blocks of texels that one chart has alone: 4 for compressed textures; 1, 2, 4, ..., 64, at most an "
+                   "Side of the blocks of texels that one chart has alone: 4 for compressed textures; 1, 2, 4, ..., "
+                   "64, at most an "
                    "eighth of --resolution")
         ->type_name("N")
         ->check(CLI::IsMember({1, 2, 4, 8, 16, 32, 64}).description(""))
@@ -201,6 +203,9 @@ void check_pages(const atlas_options& o)
     if (o.padding && o.mip_levels) throw usage_error("--padding and --mip-levels: give one of them");
     if (o.max_resolution > 0 && !(o.texels_per_unit > 0))
         throw usage_error("--max-resolution is for --texels-per-unit; give both");
+    if (o.max_resolution > 0 && o.max_resolution < width)
+        throw usage_error("--max-resolution " + std::to_string(o.max_resolution) + ": is below --resolution, " +
+                          std::to_string(width));
     if (o.stack && !o.pinned.empty()) throw usage_error("--stack is of charts that are placed; leave out --pin");
     if (o.by_material && o.tiles)
         throw usage_error("--tile-per-material has as many tiles as materials; leave out --udim");
@@ -232,8 +237,11 @@ void check(const atlas_options& o)
     if (o.inputs.size() > 1 && !o.pinned.empty())
         throw usage_error("--pin names faces of one surface; map the surfaces one at a time");
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
-    if (o.texcoord_set > 0 && !gltf && std::none_of(o.outputs.begin(), o.outputs.end(), io::is_gltf))
-        throw usage_error("--texcoord-set is of glTF; leave it out");
+    const bool others = !std::all_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
+    if (o.texcoord_set > 0 && !gltf) throw usage_error("--texcoord-set is of glTF that is read; leave it out");
+    if (o.read_texcoord_set && !gltf) throw usage_error("--read-texcoord-set is of glTF that is read; leave it out");
+    if (o.format != io::surface_format::automatic && !others)
+        throw usage_error("--format is of OBJ, OFF, PLY and STL; leave it out for glTF");
     if (o.symmetric && (o.keep_charts() || !o.pinned.empty()))
         throw usage_error("--symmetric makes charts; leave out --charts keep and --pin");
     if (o.max_stretch && (o.max_distortion || o.mean_distortion))

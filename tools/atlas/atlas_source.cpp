@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 
 #include <taut/impl/core/disjoint_sets.hpp>
@@ -97,17 +98,21 @@ public:
             return gltf_files(path, model, map, 0, numbers, changes);
         }
         std::vector<idx> texcoords(file_.faces.corners.size(), -1);
+        std::set<idx> torn; // triangles of polygons that have a corner in two places
         for (std::size_t c = 0; c < map.cells.size(); ++c)
             for (std::size_t k = 0; k < 3; ++k)
             {
                 const auto [cell, corner] = origin(c, k);
                 idx& t = texcoords[file_.faces.corner(cell, corner)];
-                if (t >= 0 && t != map.cells[c][k])
+                if (t >= 0 && t != map.cells[c][k] && !repairs().empty())
+                    torn.insert(static_cast<idx>(c));
+                else if (t >= 0 && t != map.cells[c][k])
                     throw no_valid_map("the polygon of triangle " + std::to_string(cell) +
                                        " is bent too far to be in one chart; write the surface as triangles");
                 t = map.cells[c][k];
             }
-        leave_out_parted(map, texcoords, changes);
+        leave_out_parted(map, torn, texcoords, changes);
+        note_mirrored(changes);
         std::vector<vec2> uv(map.uv.begin(), map.uv.end());
         for (vec2& x : uv) x = to_obj(x);
         return {{path, [this, texcoords = std::move(texcoords), uv = std::move(uv)](io::atomic_file& out)
@@ -117,7 +122,8 @@ public:
 private:
     /// A polygon of which repair has left pieces apart has no place in the map that a program could cut from any
     /// corner.
-    void leave_out_parted(const corner_map& map, std::vector<idx>& texcoords, std::vector<std::string>& changes) const
+    void leave_out_parted(const corner_map& map, const std::set<idx>& torn, std::vector<idx>& texcoords,
+                          std::vector<std::string>& changes) const
     {
         if (file_.faces.triangles.empty()) return;
         const auto face = faces();
@@ -125,7 +131,9 @@ private:
         for (std::size_t first = 0, last = 0; first < face.size(); first = last)
         {
             while (last < face.size() && face[last] == face[first]) ++last;
-            if (last - first < 2 || hang_together(map.cells.subspan(first, last - first))) continue;
+            const auto at = torn.lower_bound(static_cast<idx>(first));
+            const bool is_torn = at != torn.end() && *at < static_cast<idx>(last);
+            if (last - first < 2 || (!is_torn && hang_together(map.cells.subspan(first, last - first)))) continue;
             parted.push_back(face[first]);
             for (std::size_t c = first; c < last; ++c)
                 for (std::size_t k = 0; k < 3; ++k)
@@ -269,7 +277,20 @@ std::vector<io::file_to_write> atlas_source::gltf_files(const std::string& path,
         changes.push_back(
             taut::impl::counted(out, "triangle", "triangles") +
             " left out: all corners in one point of the map, as glTF has no triangle without coordinates");
+    note_mirrored(changes);
     return io::gltf_files(path, model, result, set, numbers);
+}
+
+void atlas_source::note_mirrored(std::vector<std::string>& changes) const
+{
+    std::vector<idx> mirrored;
+    if (repaired_)
+        for (std::size_t c = 0; c < repaired_->turned.size(); ++c)
+            if (repaired_->turned[c] != 0) mirrored.push_back(repaired_->cell_origins[c]);
+    if (!mirrored.empty())
+        changes.push_back(taut::impl::list_ids("triangle", "triangles", mirrored) +
+                          " turned over by --repair, and written in the order of the file: mirrored in the map; "
+                          "turn their corners in the file, or other programs take them for flipped");
 }
 
 std::unique_ptr<atlas_source> open_atlas_source(const std::string& path, const source_options& options)

@@ -37,6 +37,9 @@ public:
     /// The vertex of the file that a vertex of the surface is.
     idx vertex_origin(idx v) const { return repaired_ ? repaired_->vertex_origins[static_cast<std::size_t>(v)] : v; }
 
+    /// The triangle of the file that a triangle of the surface is.
+    idx cell_origin(idx c) const { return repaired_ ? repaired_->cell_origins[static_cast<std::size_t>(c)] : c; }
+
     /// Repairs of the input.
     std::span<const repair_finding> repairs() const
     {
@@ -97,6 +100,9 @@ protected:
     std::vector<io::file_to_write> gltf_files(const std::string& path, const io::gltf_model& model,
                                               const corner_map& map, int set, io::gltf_numbers numbers,
                                               std::vector<std::string>& changes) const;
+
+    /// Says which triangles have mirrored images for those who read their corners as the file has them.
+    void note_mirrored(std::vector<std::string>& changes) const;
 
 private:
     vec2 origin_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <taut/impl/io/read_file.hpp>
@@ -22,6 +23,12 @@ namespace
 std::size_t u(idx i)
 {
     return static_cast<std::size_t>(i);
+}
+
+[[noreturn]] void refuse_edge(const std::string& path, idx a, idx b)
+{
+    throw unsuitable_input(path + ": vertices " + std::to_string(a) + " and " + std::to_string(b) +
+                           " have no edge; name two vertices of a triangle, from 0");
 }
 
 /// Marks these edges.
@@ -43,8 +50,7 @@ void mark_edges(std::vector<char>& seam, const std::vector<std::array<idx, 2>>& 
     const auto missing = std::find(found.begin(), found.end(), char(0));
     if (missing == found.end()) return;
     const auto& e = edges[static_cast<std::size_t>(missing - found.begin())];
-    throw unsuitable_input(path + ": vertices " + std::to_string(e[0]) + " and " + std::to_string(e[1]) +
-                           " have no edge; name two vertices of a triangle, from 0");
+    refuse_edge(path, e[0], e[1]);
 }
 
 /// Marks the sides along which texture coordinates are torn.
@@ -118,6 +124,7 @@ std::vector<double> seam_weights_of(const std::vector<std::unique_ptr<atlas_sour
     weights.resize(f.twin.size(), 1);
     const auto given =
         parse_weights(io::impl::read_file(options.seam_weights), options.seam_weights, sources[0]->file_vertices);
+    std::set<std::array<idx, 2>> found;
     const auto factor = [&](idx v) { return given.of_vertices.empty() ? 1 : given.of_vertices[u(v)]; };
     for (std::size_t s = 0; s < weights.size(); ++s)
     {
@@ -125,8 +132,11 @@ std::vector<double> seam_weights_of(const std::vector<std::unique_ptr<atlas_sour
         a = sources[0]->vertex_origin(a);
         b = sources[0]->vertex_origin(b);
         const auto edge = given.of_edges.find({std::min(a, b), std::max(a, b)});
+        if (edge != given.of_edges.end()) found.insert(edge->first);
         weights[s] *= edge != given.of_edges.end() ? edge->second : std::sqrt(factor(a) * factor(b));
     }
+    for (const auto& [pair, weight] : given.of_edges)
+        if (!found.contains(pair)) refuse_edge(options.seam_weights, pair[0], pair[1]);
     for (double& w : weights) w = std::clamp(w, 1e-3, 1e3);
     return weights;
 }

@@ -13,7 +13,7 @@ struct job_files
 {
     std::vector<std::string> inputs, outputs;
     std::vector<std::string> tiles; ///< those of outputs that have <UDIM> in their names, for files of all tiles
-    std::string stats; ///< what --stats names, one of the outputs or standard output; or empty
+    std::string stats;              ///< what --stats names, one of the outputs or standard output; or empty
 };
 
 /// Knows the program's options, and so which arguments of a job are files.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "batch/job_stream.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <utility>
 
@@ -20,18 +21,26 @@ job_stream::job_stream(int file, std::string name,
 
 void job_stream::read(std::deque<job>& jobs)
 {
-    pollfd news{file_, POLLIN, 0};
-    if (ended_ || ::poll(&news, 1, 0) <= 0) return;
+    // What is there, but for so much that jobs at work would wait.
+    constexpr int most_pieces = 256;
     char some[1 << 16];
-    const auto count = ::read(file_, some, sizeof some);
-    if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
-    if (count > 0) rest_.append(some, static_cast<std::size_t>(count));
     std::size_t begin = 0;
-    for (std::size_t end; (end = rest_.find('\n', begin)) != std::string::npos; begin = end + 1)
+    const std::size_t searched = rest_.size(); // that much has no end of a line
+    for (int piece = 0; piece < most_pieces && !ended_; ++piece)
+    {
+        pollfd news{file_, POLLIN, 0};
+        if (::poll(&news, 1, 0) <= 0) break;
+        const auto count = ::read(file_, some, sizeof some);
+        if (count < 0 && (errno == EINTR || errno == EAGAIN)) break;
+        if (count > 0)
+            rest_.append(some, static_cast<std::size_t>(count));
+        else
+            ended_ = true;
+    }
+    for (std::size_t end; (end = rest_.find('\n', std::max(begin, searched))) != std::string::npos; begin = end + 1)
         take_line(rest_.substr(begin, end - begin), jobs);
     rest_.erase(0, begin);
-    if (count > 0) return;
-    ended_ = true;
+    if (!ended_) return;
     if (!rest_.empty()) take_line(std::exchange(rest_, {}), jobs);
 }
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstddef>
 #include <iostream>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <type_traits>
+#include <vector>
 
 #include <taut/impl/io/cut_seams.hpp>
 #include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/mesh/describe.hpp>
 
 #include "commands.hpp"
 #include "shared/assessment.hpp"
@@ -31,6 +36,32 @@ struct eval_options
     int zone = 0; ///< of a SU2 file of several; 0: none
 };
 
+/// Takes out the triangles that have no place in the map, as those that --repair leaves out. Returns them.
+std::vector<idx> leave_out_unmapped(io::surface_file& file, std::vector<idx>& polygons, std::vector<idx>& kept)
+{
+    std::vector<idx> gone;
+    if (file.texcoord_cells.empty()) return gone;
+    for (std::size_t c = 0; c < file.texcoord_cells.size(); ++c)
+    {
+        const auto& t = file.texcoord_cells[c];
+        (std::any_of(t.begin(), t.end(), [](idx x) { return x < 0; }) ? gone : kept).push_back(static_cast<idx>(c));
+    }
+    if (gone.empty() || kept.empty()) return {};
+    const auto of_kept = [&](const auto& all)
+    {
+        std::decay_t<decltype(all)> some;
+        for (const idx c : kept) some.push_back(all[static_cast<std::size_t>(c)]);
+        return some;
+    };
+    if (!polygons.empty()) polygons = of_kept(polygons);
+    file.texcoord_cells = of_kept(file.texcoord_cells);
+    file.surface = mesh<triangle>(file.surface.points(), of_kept(file.surface.cells()));
+    file.faces = {};
+    file.faces.sizes.assign(kept.size(), 3);
+    for (const auto& t : file.surface.cells()) file.faces.corners.insert(file.faces.corners.end(), t.begin(), t.end());
+    return gone;
+}
+
 exit_code evaluate(const eval_options& options)
 {
     const bool volume = names_volume(options.input) || extension(options.input) == ".prob";
@@ -46,19 +77,28 @@ exit_code evaluate(const eval_options& options)
     refuse("--picture", !options.picture.empty());
     refuse("--cut", !options.cut.empty());
     if (options.zone > 0) throw usage_error("--zone is of SU2 files; leave it out");
-    const auto file = io::read_surface_file(options.input, options.format);
+    auto file = io::read_surface_file(options.input, options.format);
     if (!file.texcoord_fault.empty())
         throw unsuitable_input(file.texcoord_fault + "; correct it, or let `taut unwrap` make others");
     if (file.texcoords.empty())
         throw unsuitable_input(options.input + ": has no texture coordinates (vt); `taut unwrap` makes them");
+    auto polygons = file.faces.of_triangles();
+    std::vector<idx> kept;
+    const auto gone = leave_out_unmapped(file, polygons, kept);
     const auto cut = io::cut_seams(file);
     auto a = cut ? assess(cut->surface, cut->uv) : assess(file.surface, file.vertex_texcoords());
     const auto& surface = cut ? cut->surface : file.surface;
-    take_polygons(a, find_convex_polygons(surface.cells(), file.faces.of_triangles(), surface.points()),
+    take_polygons(a, find_convex_polygons(surface.cells(), polygons, surface.points()),
                   cut ? cut->uv : file.vertex_texcoords());
     const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
     a.vertices = file.surface.vertex_count();
     a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());
+    if (!gone.empty())
+    {
+        a.notes.push_back(taut::impl::list_ids("triangle", "triangles", gone) +
+                          " without texture coordinates: left out");
+        for (idx& c : a.quality.flips.ids) c = kept[static_cast<std::size_t>(c)];
+    }
     const auto& flips = a.quality.flips;
 
     if (options.json)
@@ -68,6 +108,7 @@ exit_code evaluate(const eval_options& options)
         json["input"] = options.input;
         json["vertices"] = a.vertices;
         json["faces"] = flips.elements;
+        json["left_out"] = gone.size();
         json["seam_vertices"] = seam_vertices;
         json["flipped"] = flips.flipped;
         json["flipped_ids"] = flips.ids;

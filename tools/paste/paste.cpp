@@ -130,7 +130,9 @@ private:
     {
         const auto uv = parameterize_feature(q, *paste_);
         if (!uv) throw no_valid_map("the feature has no map with its rim where it meets the target: " + uv.reason());
-        map_ = make_feature_map(q, paste_->part(), uv.uv, {.resolution = options_.texels});
+        map_ = make_feature_map(q, paste_->part(), uv.uv,
+                                {.resolution = options_.texels,
+                                 .margin = std::min(impl::feature_map_params{}.margin, options_.texels / 4)});
         if (options_.triangles == 0) return;
         const auto before = paste_->part().region.surface;
         paste_->refill(tessellate(q, paste_->part(), *map_, uv.uv, options_.triangles));

@@ -105,6 +105,33 @@ TEST_CASE("geodesic disk: what is enclosed and smaller is filled, what is no dis
     CHECK_THROWS_AS(geodesic_disk(test::three_on_an_edge(), 0, 2.0), mesh_error);
 }
 
+TEST_CASE("region of faces: triangles that are oriented differently are named, both of them")
+{
+    const auto m = test::grid(4, 4);
+    auto cells = m.cells();
+    std::swap(cells[9][1], cells[9][2]);
+    const mesh<triangle> turned(m.points(), cells);
+    try
+    {
+        region_of_faces(turned, std::array<taut::idx, 1>{0});
+        FAIL("a clash is accepted");
+    }
+    catch (const mesh_error& e)
+    {
+        CHECK(e.fault() == mesh_fault::inconsistent_orientation);
+        REQUIRE(e.ids().size() == 2);
+        CHECK((e.ids()[0] == 9) != (e.ids()[1] == 9));
+        for (const taut::idx f : e.ids())
+        {
+            const auto& t = cells[static_cast<std::size_t>(f)];
+            const auto common = std::count_if(
+                t.begin(), t.end(),
+                [&](taut::idx v) { return std::find(cells[9].begin(), cells[9].end(), v) != cells[9].end(); });
+            CHECK(common >= 2); // a neighbour, or itself
+        }
+    }
+}
+
 TEST_CASE("region of faces: taken as they are, refused with what is wrong")
 {
     const int n = 8;

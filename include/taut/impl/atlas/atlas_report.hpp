@@ -57,6 +57,7 @@ struct atlas_report
 {
     bool complete = true;              ///< false: the clock or the observer ended it; the atlas is valid all the same
     std::string reason;                ///< why there is no valid atlas; empty if there is one
+    std::vector<idx> reason_triangles; ///< those that `reason` names
     std::vector<std::string> notes;    ///< decisions of the library
     std::vector<chart_summary> charts; ///< in the order of chart_mesh
     certificate flips;                 ///< certificate of all triangles in the atlas, exact
@@ -77,6 +78,13 @@ struct atlas_report
     int resolution = 0;        ///< texels along the width of a tile
     std::optional<impl::atlas_symmetry> symmetry; ///< with atlas_params::symmetric
     impl::atlas_seconds seconds;
+
+    /// "the chart of triangle 7", for the reason.
+    std::string name_chart(idx triangle)
+    {
+        reason_triangles.push_back(triangle);
+        return "the chart of triangle " + std::to_string(triangle);
+    }
 };
 
 /// "17 charts, E 4.031, 76 % of the square, 0 flipped, 0 overlaps"

@@ -231,11 +231,10 @@ protected:
         usable_ = true;
         report_.seconds.charts = budget_.lap();
         const auto bad = unfit();
-        if (const auto first = std::find(bad.begin(), bad.end(), char(1)); first != bad.end())
+        const auto k = static_cast<std::size_t>(std::find(bad.begin(), bad.end(), char(1)) - bad.begin());
+        if (k < bad.size())
             report_.reason =
-                "the chart of triangle " +
-                std::to_string(
-                    charts_->cell_origins[u(charts_->first_cell[static_cast<std::size_t>(first - bad.begin())])]) +
+                report_.name_chart(charts_->cell_origins[u(charts_->first_cell[k])]) +
                 " is folded, or overlaps itself, as it is given; relax it (--charts keep), or let charts be made";
     }
 
@@ -315,8 +314,7 @@ protected:
         const auto first_bad = static_cast<std::size_t>(std::find(bad.begin(), bad.end(), char(1)) - bad.begin());
         if (params_.keep_charts)
         {
-            report_.reason = "the chart of triangle " +
-                             std::to_string(charts_->cell_origins[u(charts_->first_cell[first_bad])]) +
+            report_.reason = report_.name_chart(charts_->cell_origins[u(charts_->first_cell[first_bad])]) +
                              " has no map, or none without overlaps, and cannot be kept; let charts be made";
             return;
         }

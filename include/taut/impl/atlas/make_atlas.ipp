@@ -337,18 +337,26 @@ private:
             sealed.overlaps.pairs + static_cast<std::size_t>(std::count(crossing.begin(), crossing.end(), char(1)));
         report_.least_distance = std::min(sealed.gap, sealed.border) * report_.resolution;
         report_.seconds.certify += budget_.lap();
+        auto& named = report_.reason_triangles;
         if (!report_.flips)
+        {
+            for (const idx c : report_.flips.ids) named.push_back(charts_->cell_origins[u(c)]);
             report_.reason = std::to_string(report_.flips.flipped) + " triangles" + turned_ids() +
                              " are flipped by the digits of the file; " + remedy;
+        }
         else if (const auto bad = std::find(crossing.begin(), crossing.end(), char(1)); bad != crossing.end())
+        {
+            named = {first_triangle(static_cast<std::size_t>(bad - crossing.begin()))};
             report_.reason = "the border of chart " + std::to_string(bad - crossing.begin()) + ", that of triangle " +
-                             std::to_string(first_triangle(static_cast<std::size_t>(bad - crossing.begin()))) +
-                             ", meets itself in the digits of the file; " + remedy;
+                             std::to_string(named[0]) + ", meets itself in the digits of the file; " + remedy;
+        }
         else if (report_.overlaps > 0)
+        {
+            for (const idx k : sealed.overlaps.first) named.push_back(first_triangle(laid_chart(k)));
             report_.reason = std::to_string(report_.overlaps) +
                              " charts overlap in the atlas: the first are those of triangles " +
-                             std::to_string(first_triangle(laid_chart(sealed.overlaps.first[0]))) + " and " +
-                             std::to_string(first_triangle(laid_chart(sealed.overlaps.first[1])));
+                             std::to_string(named[0]) + " and " + std::to_string(named[1]);
+        }
         else if (!sealed.holds(params_.packing.padding, report_.resolution))
             report_.reason = "charts are nearer to each other, or to the border, than the padding";
         if (report_.concave > 0)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -25,6 +26,21 @@ inline idx turned_triangle(const chart_mesh& charts, std::size_t k, std::span<co
             orient2d(at(t[0]), at(t[1]), at(t[2])) <= 0)
             return c;
     return -1;
+}
+
+/// Returns whether a chart of many triangles is much smaller than the units of the file's numbers allow: it is to be
+/// scaled up, and no time is spent on it before.
+inline bool is_hopeless(std::span<const vec2> x, idx triangles, const settling& how)
+{
+    constexpr idx few = 64;
+    if (how.stored == nullptr || triangles < few) return false;
+    vec2 low = x.front(), high = low;
+    for (const vec2& p : x)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return glm::length(high - low) < 16 * std::sqrt(static_cast<double>(triangles)) * spacing_at(high, how.stored);
 }
 
 /// Rounds charts to the precision of a file so that each is valid, if its vertices need not leave their reach.
@@ -57,6 +73,9 @@ inline std::vector<char> settle_charts(const chart_mesh& charts, const convex_po
                                 [&](const auto& c) { return orient2d(uv[u(c[0])], uv[u(c[1])], uv[u(c[2])]) <= 0; });
                 bad[k] = is_bad();
                 if (!bad[k] && !concave) continue;
+                if (bad[k] && how.held.empty() &&
+                    is_hopeless(own, charts.first_cell[k + 1] - charts.first_cell[k], how))
+                    continue;
                 std::copy(exact.begin(), exact.end(), own.begin());
                 const std::span some(cells.data() + charts.first_cell[k], cells.data() + charts.first_cell[k + 1]);
                 settle_piece(some, corners, low, high, uv, how);

@@ -17,6 +17,7 @@
 #include <taut/impl/edit/detail/laid_feature.hpp>
 #include <taut/impl/edit/paste_params.hpp>
 #include <taut/impl/edit/paste_report.hpp>
+#include <taut/impl/edit/rbf_error.hpp>
 #include <taut/impl/edit/self_intersections.hpp>
 
 namespace taut::impl
@@ -40,7 +41,7 @@ public:
     {
         report_.way = site_.rim.way;
         stitch();
-        timed(report_.seconds.factor, [&] { factor(); });
+        timed(report_.seconds.factor, [&] { interpolated([&] { factor(); }); });
         pose(params_.pose);
     }
 
@@ -50,7 +51,7 @@ public:
     void pose(const paste_pose& to)
     {
         to.validate();
-        timed(report_.seconds.transform, [&] { bend(to); });
+        timed(report_.seconds.transform, [&] { interpolated([&] { bend(to); }); });
         params_.pose = to;
     }
     /// Puts another surface within the same rim, say a tessellation of the feature's map. Throws parameter_error for
@@ -67,7 +68,7 @@ public:
             throw parameter_error("part", "has another rim than the feature; paste it as one of its own");
         part_ = std::move(part);
         stitch();
-        timed(report_.seconds.factor, [&] { factor(); });
+        timed(report_.seconds.factor, [&] { interpolated([&] { factor(); }); });
         pose(params_.pose);
     }
 
@@ -163,6 +164,21 @@ private:
     {
         params.validate();
         return params;
+    }
+
+    /// Throws paste_error where points are too near to each other to interpolate between them.
+    template <class Work>
+    static void interpolated(const Work& work)
+    {
+        try
+        {
+            work();
+        }
+        catch (const rbf_error&)
+        {
+            throw paste_error("points of the feature's rim are at one place on the target, as coordinates there are "
+                              "too coarse for it; choose a larger scale");
+        }
     }
 
     template <class Work>

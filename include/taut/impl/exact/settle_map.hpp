@@ -218,7 +218,7 @@ private:
     {
         map_faults faults;
         bad_.clear();
-        if (state_ == neighbours::outdated) state_ = neighbours::unknown;
+        if (state_ == neighbours::many) state_ = neighbours::unknown;
         for (const auto& t : cells_)
             if (turn(t) <= 0)
             {
@@ -243,7 +243,7 @@ private:
     std::size_t meetings_at(idx v)
     {
         if (state_ == neighbours::unknown) find_neighbours();
-        const bool known = state_ == neighbours::known && within_margin(v);
+        const bool known = state_ == neighbours::listed && within_margin(v);
         std::size_t count = 0;
         for (const idx e : border_at_.row(v - first_))
         {
@@ -254,8 +254,12 @@ private:
                     edges_meet(border_[u(e)], border_[u(f)], x_))
                     ++count;
             };
-            if (known)
-                for (const idx f : near_.row(e)) look(f);
+            if (known && !is_far_[u(e)])
+            {
+                for (const idx f : near_.row(e))
+                    if (!is_far_[u(f)]) look(f);
+                for (const idx f : far_) look(f);
+            }
             else
                 for (idx f = 0; f < static_cast<idx>(border_.size()); ++f) look(f);
         }
@@ -269,7 +273,9 @@ private:
         for (const auto& [a, b] : border_) length += glm::length(x_[u(b)] - x_[u(a)]);
         margin_ = 4 * step_ + 0.25 * length / static_cast<double>(std::max<std::size_t>(1, border_.size()));
         reference_.assign(x_.begin() + first_, x_.begin() + first_ + static_cast<std::ptrdiff_t>(origin_.size()));
-        state_ = neighbours::outdated; // unless there are few
+        is_far_.assign(border_.size(), 0);
+        far_.clear();
+        state_ = neighbours::many; // unless it turns out otherwise
         const std::size_t most = 64 * border_.size() + 4096;
         const double reach = 3 * margin_; // 2 sqrt 2 from two corners
         std::vector<std::array<idx, 2>> pairs;
@@ -294,7 +300,7 @@ private:
             near_.items[u(near_.offsets[u(j) + 1]++)] = i;
         }
         near_.offsets.pop_back();
-        state_ = neighbours::known;
+        state_ = neighbours::listed;
     }
 
     bool within_margin(idx v) const
@@ -303,10 +309,13 @@ private:
         return d.x <= margin_ && d.y <= margin_;
     }
 
-    /// What is known of neighbours no longer holds where a vertex stays beyond the margin.
+    /// Edges of a vertex that stays beyond the margin are looked at by all; where there are many, all begins anew.
     void note_move(idx v)
     {
-        if (state_ == neighbours::known && !within_margin(v)) state_ = neighbours::outdated;
+        if (state_ != neighbours::listed || within_margin(v)) return;
+        for (const idx e : border_at_.row(v - first_))
+            if (!std::exchange(is_far_[u(e)], char(1))) far_.push_back(e);
+        if (far_.size() > 32) state_ = neighbours::unknown;
     }
 
     /// Penalty of the triangles at v: how far they are from the other side, in steps, and how many; and edges that are
@@ -423,11 +432,13 @@ private:
     enum class neighbours
     {
         unknown,
-        known,
-        outdated ///< until the next round: all edges are looked at
+        listed,
+        many ///< until the next round all edges are looked at
     };
     neighbours state_ = neighbours::unknown;
-    csr near_; // of border edges
+    csr near_;             // of border edges
+    std::vector<idx> far_; // border edges of vertices that have left the margin
+    std::vector<char> is_far_;
     double margin_ = 0;
     std::vector<vec2> reference_; // where near_ was found
 };

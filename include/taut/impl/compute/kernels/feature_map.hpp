@@ -101,6 +101,12 @@ __kernel void map_sample(const int count, const int width, const int height, __g
     if (n < count) vstore3(sampled(texels, width, height, vload2(n, points)), n, positions);
 }
 
+static float apart(const float3 a, const float3 b)
+{
+    const float3 d = a - b;
+    return sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+}
+
 /// How far the map is from bilinear in each square cell of `size` texels, of `across` a row: the largest distance at its
 /// middle and the middles of its sides. Cells that see nothing covered are 0.
 __kernel void map_roughness(const int width, const int height, const int size, const int across, const int count,
@@ -118,11 +124,11 @@ __kernel void map_roughness(const int width, const int height, const int size, c
         x[k] = sampled(texels, width, height, p);
         covered += texel_at(texels, width, height, min((int)p.x, width - 1), min((int)p.y, height - 1)).w == 1;
     }
-    float worst = distance(x[4], 0.25f * (x[0] + x[2] + x[6] + x[8]));
-    worst = fmax(worst, distance(x[1], 0.5f * (x[0] + x[2])));
-    worst = fmax(worst, distance(x[3], 0.5f * (x[0] + x[6])));
-    worst = fmax(worst, distance(x[5], 0.5f * (x[2] + x[8])));
-    worst = fmax(worst, distance(x[7], 0.5f * (x[6] + x[8])));
+    float worst = apart(x[4], 0.25f * (x[0] + x[2] + x[6] + x[8]));
+    worst = fmax(worst, apart(x[1], 0.5f * (x[0] + x[2])));
+    worst = fmax(worst, apart(x[3], 0.5f * (x[0] + x[6])));
+    worst = fmax(worst, apart(x[5], 0.5f * (x[2] + x[8])));
+    worst = fmax(worst, apart(x[7], 0.5f * (x[6] + x[8])));
     roughness[n] = covered == 0 ? 0 : worst;
 }
 )cl";
