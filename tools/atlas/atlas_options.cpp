@@ -84,8 +84,9 @@ void declare_packing(CLI::App& app, atlas_options& o)
                    "Texels between charts, and from them to the border of the square; default 2, or for --mip-levels")
         ->type_name("PX")
         ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"));
-    app.add_option("--mip-levels", o.mip_levels,
-                   "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels; 0 to 10")
+    app.add_option(
+           "--mip-levels", o.mip_levels,
+           "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels; 0 to 10")
         ->type_name("N")
         ->check(CLI::Range(0, 10).description(""));
     app.add_option("--resolution", o.size,
@@ -101,7 +102,8 @@ void declare_packing(CLI::App& app, atlas_options& o)
         ->type_name("N")
         ->check(CLI::Range(1, 65536).description(""));
     app.add_option("--align", o.align,
-                   "Side of the blocks of texels that one chart has alone: 4 for compressed textures; 1, 2, 4, ..., 64, at most an "
+                   "Side of the blocks of texels that one chart has alone: 4 for compressed textures; 1, 2, 4, ..., "
+                   "64, at most an "
                    "eighth of --resolution")
         ->type_name("N")
         ->check(CLI::IsMember({1, 2, 4, 8, 16, 32, 64}).description(""))
@@ -236,6 +238,9 @@ void check(const atlas_options& o)
         throw usage_error("--texcoord-set is of glTF; leave it out");
     if (o.symmetric && (o.keep_charts() || !o.pinned.empty()))
         throw usage_error("--symmetric makes charts; leave out --charts keep and --pin");
+    if (o.symmetric && o.stack)
+        throw usage_error("--stack similar lays copies on each other, and mirror images are no copies; leave out "
+                          "--symmetric, or --stack");
     if (o.max_stretch && (o.max_distortion || o.mean_distortion))
         throw usage_error("--max-stretch is a bound of the mean distortion; leave out --max-distortion and "
                           "--mean-distortion");

@@ -8,6 +8,7 @@
 #include <taut/impl/io/read_surface.hpp>
 
 #include "commands.hpp"
+#include "eval/atlas_measures.hpp"
 #include "shared/assessment.hpp"
 #include "shared/failure.hpp"
 #include "shared/report_files.hpp"
@@ -60,6 +61,7 @@ exit_code evaluate(const eval_options& options)
     a.vertices = file.surface.vertex_count();
     a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());
     const auto& flips = a.quality.flips;
+    const auto measures = measure_atlas(file, cut ? &*cut : nullptr);
 
     if (options.json)
     {
@@ -77,6 +79,7 @@ exit_code evaluate(const eval_options& options)
         json["min_det"] = finite(flips.min_det);
         json["max_det"] = finite(flips.max_det);
         json["quality"] = to_json(a);
+        json["atlas"] = measures ? to_json(*measures) : nlohmann::ordered_json(nullptr);
         json["notes"] = a.notes;
         write_standard_output(text_of(json));
         return exit_code::valid;
@@ -87,6 +90,7 @@ exit_code evaluate(const eval_options& options)
                           count(flips.elements, "triangle", "triangles") +
                           (seam_vertices > 0 ? ", " + count(seam_vertices, "vertex", "vertices") + " on seams" : ""));
     describe_validity(lines, a);
+    if (measures) describe(lines, *measures);
     std::ostringstream out;
     out << lines;
     print(out, a);

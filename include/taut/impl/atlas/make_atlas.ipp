@@ -210,9 +210,6 @@ private:
                 uv_[v] += vec2(params_.origin.x - 10 * row, (params_.origin.y + row) * params.aspect);
         }
         bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
-        if (std::getenv("TR"))
-            for (std::size_t k = 0; k < bad_.size(); ++k)
-                if (bad_[k]) std::fprintf(stderr, "bad %zu of %zu\n", k, bad_.size());
         if (stacks_)
         {
             stacks_->share(uv_);
@@ -421,6 +418,8 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
     }
     if (params.symmetric && (params.keep_charts || !params.pinned.empty()))
         throw parameter_error("symmetric", "makes charts; none can be kept or pinned");
+    if (params.symmetric && params.stack)
+        throw parameter_error("stack", "is of copies, and mirror images are none; leave out `symmetric`");
     if (!params.wishes.weights.empty() && (params.symmetric || !params.pinned.empty()))
         throw parameter_error("weights", "are of the whole surface; leave out `symmetric` and `pinned`");
     if (!params.groups.empty() && params.groups.size() != m.cells().size())

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <span>
@@ -96,11 +95,6 @@ private:
                 missed += excess > 0;
             }
             now.holds = now.mean <= bound && excess <= 0;
-            if (std::getenv("TR"))
-                std::fprintf(
-                    stderr,
-                    "turn %d flattened %.4f crossing %d mean %.4f apart %.4f bound %.4f overlap %.4f charts %d\n", turn,
-                    flattened, int(crossing), now.mean, rate, bound, cutting.overlap(), int(now.charts.charts()));
             const double mean = now.mean;
             const bool holds = now.holds;
             // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
@@ -203,12 +197,6 @@ private:
         c_.energy_.clear();
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
-        if (std::getenv("TR"))
-        {
-            std::fprintf(stderr, "after straighten %.4f:", price_of_seams(prices));
-            for (double e : c_.energy_) std::fprintf(stderr, " %.5f", e);
-            std::fprintf(stderr, "\n");
-        }
         auto bad = c_.unfit();
         const auto touching = touching_charts();
         for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] || touching[k];
@@ -333,6 +321,7 @@ private:
         for (std::size_t s = 0; s < factors.size(); ++s) factors[s] = c_.factors_[part.origin(s)];
         params.weights = factors;
         params.least_fill = 0;
+        params.unite_rounds = std::max(params.unite_rounds, 6); // few charts, whatever they are like
         params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
         params.time_limit = std::max(c_.budget_.left(), budget::seconds(1e-6));
         params.observer = c_.asking("charts");
