@@ -133,7 +133,6 @@ private:
                 sew_up(std::vector<char>(c_.energy_.size(), 1), false, limits);
         }
         if (!c_.report_.complete) return lay_unfinished();
-        if (!c_.report_.complete) return lay_unfinished();
         if (!best->holds) c_.keep_apart(best->bad);
         if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
         best->bad.resize(c_.energy_.size(), 0);
@@ -141,8 +140,8 @@ private:
             if (!(c_.energy_[k] <= c_.params_.charts.max_distortion)) best->bad[k] = 1;
         if (std::count(best->bad.begin(), best->bad.end(), char(1)) > 0) mend_rest(best->bad);
         if (!c_.report_.complete) lay_unfinished();
-        if (const double mean = mean_energy(); rough && c_.report_.complete && mean > c_.params_.charts.mean_distortion)
-            c_.report_.notes.push_back(rough_note(mean));
+        if (const double mean = mean_energy(); c_.report_.complete && mean > c_.params_.charts.mean_distortion)
+            c_.report_.notes.push_back(note_above(mean, rough));
     }
 
     /// Of a run that has ended: what has no good map becomes patches.
@@ -156,14 +155,13 @@ private:
         c_.cut_unfinished(c_.triangles_as_laid(), crosses);
     }
 
-    std::string rough_note(double mean) const
+    std::string note_above(double mean, bool rough) const
     {
         char text[200];
-        std::snprintf(
-            text, sizeof text,
-            "the mean energy is %.4g where %.4g is wanted, which short seams do not reach on a rough surface; "
-            "more charts do (--prefer packing)",
-            mean, c_.params_.charts.mean_distortion);
+        std::snprintf(text, sizeof text,
+                      "the mean energy is %.4g where %.4g is wanted, which short seams do not reach%s; more charts do "
+                      "(--prefer packing)",
+                      mean, c_.params_.charts.mean_distortion, rough ? " on a rough surface" : "");
         return text;
     }
 
