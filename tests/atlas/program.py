@@ -439,6 +439,8 @@ def wrong_usage():
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--symmetric"], "--symmetric"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--prefer", "one"], "--prefer"),
                              (["ball.obj", "-o", "x.obj", "--prefer", "few"], "few"),
+                             (["ball.obj", "-o", "x.obj", "--symmetric", "--stack", "similar"], "mirror images"),
+                             (["ball.obj", "-o", "x.obj", "--symmetric", "--seam-weights", "ball.obj"], "--seam-weights"),
                              (["ball.obj", "ball.obj", "-o", "x.glb"], "as .obj"),
                              (["-", "-", "-o", "x.obj"], "standard input"),
                              (["ball.obj", "ball.obj", "ball.obj", "-o", "x.obj", "-o", "y.obj"], "outputs"),

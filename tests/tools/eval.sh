@@ -55,6 +55,16 @@ test_eval()
     keys same.json quality.isometric.by_area quality.shape.mean quality.area.mean quality.stretch_l2.rms quality.angular
     says values '^quality.isometric.by_area=4(\.0+)?$' '^quality.shape.mean=1(\.0+)?$' '^quality.area.mean=2(\.0+)?$'
 
+    # As an atlas: one chart, nothing is distorted; folded over, half of it lies on the other half.
+    keys same.json atlas.charts atlas.large_charts atlas.relative_seam atlas.stretch_l2 atlas.area_distortion \
+        atlas.area_difference atlas.density_spread atlas.overlap_area
+    says values '^atlas.charts=1$' '^atlas.large_charts=0$' '^atlas.stretch_l2=1(\.0+)?$' '^atlas.overlap_area=0(\.0+)?$'
+    printf 'v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 0\nvt 0 0\nvt 2 0\nvt 0 2\nvt 0 0\nf 1/1 2/2 3/3\nf 2/2 4/4 3/3\n' >half.obj
+    expect 0 eval half.obj --json
+    cp out half.json
+    keys half.json atlas.overlap_area
+    says values '^atlas.overlap_area=0\.5'
+
     # A branch point: no triangle is flipped, but the map winds twice around vertex 0.
     wound_fan >wound.obj
     expect 0 eval wound.obj

@@ -244,6 +244,9 @@ void check(const atlas_options& o)
         throw usage_error("--format is of OBJ, OFF, PLY and STL; leave it out for glTF");
     if (o.symmetric && (o.keep_charts() || !o.pinned.empty()))
         throw usage_error("--symmetric makes charts; leave out --charts keep and --pin");
+    if (o.symmetric && o.stack)
+        throw usage_error("--stack similar lays copies on each other, and mirror images are no copies; leave out "
+                          "--symmetric, or --stack");
     if (o.max_stretch && (o.max_distortion || o.mean_distortion))
         throw usage_error("--max-stretch is a bound of the mean distortion; leave out --max-distortion and "
                           "--mean-distortion");

@@ -57,6 +57,9 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     if (a.seen_seam) json["seen_seam"] = *a.seen_seam;
     json["stretch_l2"] = finite(a.stretch_l2);
     json["stretch_linf"] = finite(a.stretch_linf);
+    json["area_distortion"] = finite(a.area_distortion);
+    json["area_difference"] = finite(a.area_difference);
+    json["density_spread"] = finite(a.density_spread);
     json["large_charts"] =
         std::count_if(a.charts.begin(), a.charts.end(), [](const chart_summary& c) { return c.triangles > 10; });
     if (a.symmetry)

@@ -13,6 +13,7 @@
 #include <taut/impl/mesh/describe.hpp>
 
 #include "commands.hpp"
+#include "eval/atlas_measures.hpp"
 #include "shared/assessment.hpp"
 #include "shared/failure.hpp"
 #include "shared/report_files.hpp"
@@ -100,6 +101,7 @@ exit_code evaluate(const eval_options& options)
         for (idx& c : a.quality.flips.ids) c = kept[static_cast<std::size_t>(c)];
     }
     const auto& flips = a.quality.flips;
+    const auto measures = measure_atlas(file, cut ? &*cut : nullptr);
 
     if (options.json)
     {
@@ -118,6 +120,7 @@ exit_code evaluate(const eval_options& options)
         json["min_det"] = finite(flips.min_det);
         json["max_det"] = finite(flips.max_det);
         json["quality"] = to_json(a);
+        json["atlas"] = measures ? to_json(*measures) : nlohmann::ordered_json(nullptr);
         json["notes"] = a.notes;
         write_standard_output(text_of(json));
         return exit_code::valid;
@@ -128,6 +131,7 @@ exit_code evaluate(const eval_options& options)
                           count(flips.elements, "triangle", "triangles") +
                           (seam_vertices > 0 ? ", " + count(seam_vertices, "vertex", "vertices") + " on seams" : ""));
     describe_validity(lines, a);
+    if (measures) describe(lines, *measures);
     std::ostringstream out;
     out << lines;
     print(out, a);

@@ -2,9 +2,11 @@
 // Shapes of few flat faces: charts without distortion are at hand, and the bound of the mean holds.
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <doctest/doctest.h>
 
+#include <support/closed_meshes.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 
 using namespace taut;
@@ -51,14 +53,87 @@ mesh<triangle> prism(int n, double height)
     return {std::move(p), std::move(t)};
 }
 
-void check_bound(queue& q, const mesh<triangle>& m, double bound)
+/// A closed cone of n sides.
+mesh<triangle> cone(int n, double height)
+{
+    std::vector<vec3> p;
+    for (int k = 0; k < n; ++k)
+        p.emplace_back(std::cos(2 * std::numbers::pi * k / n), std::sin(2 * std::numbers::pi * k / n), 0.0);
+    p.emplace_back(0.0, 0.0, height);
+    std::vector<std::array<taut::idx, 3>> t;
+    for (int k = 0; k < n; ++k)
+    {
+        t.push_back({k, (k + 1) % n, n});
+        if (k > 0 && k + 1 < n) t.push_back({0, k + 1, k});
+    }
+    return {std::move(p), std::move(t)};
+}
+
+/// Steps that go down along x, as boxes one unit deep that fill the stairs.
+mesh<triangle> stairs(int steps)
+{
+    std::set<test::cube_cell> boxes;
+    for (int i = 0; i < steps; ++i)
+        for (int j = 0; i + j < steps; ++j) boxes.insert({i, 0, j});
+    return test::cubes(boxes, 1);
+}
+
+/// Body, head, arms and legs.
+mesh<triangle> figure()
+{
+    std::set<test::cube_cell> boxes;
+    for (int x = 0; x < 3; ++x)
+        for (int z = 4; z < 8; ++z) boxes.insert({x, 0, z});
+    for (int z = 8; z < 10; ++z) boxes.insert({1, 0, z});
+    for (int x = 1; x < 4; ++x)
+    {
+        boxes.insert({-x, 0, 7});
+        boxes.insert({2 + x, 0, 7});
+    }
+    for (int z = 0; z < 4; ++z)
+    {
+        boxes.insert({0, 0, z});
+        boxes.insert({2, 0, z});
+    }
+    return test::cubes(boxes, 1);
+}
+
+/// A toothed wheel, its ends cut as fans: borders of its charts lie on each other.
+mesh<triangle> gear(int teeth)
+{
+    const int n = 4 * teeth;
+    std::vector<vec3> p;
+    for (const double z : {0.0, 0.5})
+        for (int k = 0; k < n; ++k)
+        {
+            const double r = k % 4 < 2 ? 1.5 : 1.1, angle = 2 * std::numbers::pi * k / n;
+            p.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+        }
+    std::vector<std::array<taut::idx, 3>> t;
+    for (int k = 0; k < n; ++k)
+    {
+        const int next = (k + 1) % n;
+        t.push_back({k, next, n + next});
+        t.push_back({k, n + next, n + k});
+        if (k > 0 && k + 1 < n)
+        {
+            t.push_back({0, k + 1, k});
+            t.push_back({n, n + k, n + k + 1});
+        }
+    }
+    return {std::move(p), std::move(t)};
+}
+
+void check_bound(queue& q, const mesh<triangle>& m, double bound, std::size_t most_charts = 6)
 {
     atlas_params p;
     p.charts.mean_distortion = bound;
     const auto a = make_atlas(q, m, p);
     REQUIRE(bool(a));
+    CHECK(a.report.flips.flipped == 0);
+    CHECK(a.report.overlaps == 0);
     CHECK(a.report.distortion <= bound);
-    CHECK(a.report.charts.size() <= 6);
+    CHECK(a.report.charts.size() <= most_charts);
 }
 
 } // namespace
@@ -79,6 +154,45 @@ TEST_CASE("make_atlas: cubes and prisms keep the bound, however they are cut and
                 CAPTURE(height);
                 check_bound(q, prism(sides, height), bound);
             }
+}
+
+TEST_CASE("make_atlas: cones, cylinders, stairs and figures of boxes keep the bound with few charts")
+{
+    queue q;
+    for (const double bound : {4.1, 4.02})
+    {
+        CAPTURE(bound);
+        for (const int sides : {5, 12, 40})
+            for (const double height : {0.5, 3.0})
+            {
+                CAPTURE(sides);
+                CAPTURE(height);
+                check_bound(q, cone(sides, height), bound);
+            }
+        check_bound(q, prism(100, 2), bound); // a cylinder whose ends are slivers
+        check_bound(q, prism(16, 8), bound);
+        for (const int steps : {2, 3, 6}) // 2: an L
+        {
+            CAPTURE(steps);
+            check_bound(q, stairs(steps), bound, 10);
+        }
+        check_bound(q, figure(), bound, 12);
+        check_bound(q, gear(8), bound, 12);
+    }
+}
+
+TEST_CASE("make_atlas: a long chart is cut across where that fills the square, at little cost")
+{
+    queue q;
+    const auto m = prism(12, 30);
+    const auto with = make_atlas(q, m, atlas_params{});
+    atlas_params p;
+    p.prefer = chart_preference::one;
+    const auto without = make_atlas(q, m, p);
+    REQUIRE(bool(with));
+    REQUIRE(bool(without));
+    CHECK(with.report.utilization > without.report.utilization + 0.1);
+    CHECK(with.report.seam_length < 1.2 * without.report.seam_length);
 }
 
 TEST_CASE("make_atlas: copies that lie on each other have the least distorted of their maps")

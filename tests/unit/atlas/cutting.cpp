@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include <taut/impl/atlas/cutting/seam_search.hpp>
 #include <taut/impl/atlas/cutting/short_cutting.hpp>
 #include <taut/impl/atlas/cutting/span_holes.hpp>
+#include <taut/impl/atlas/filling_cuts.hpp>
 
 using namespace taut;
 using namespace taut::impl;
@@ -262,4 +264,91 @@ TEST_CASE("short cutting: seams lead back over the fine surface, given ones stay
     short_cutting again(m, f, {.seams = given, .together = together, .coarse = 1000}, unlimited);
     again.run();
     CHECK(again.seams() == seam);
+}
+
+TEST_CASE("strained cuts: a surface is flat when they lead to all of its vertices")
+{
+    const rest_surface rest = rest_of(limbs(3));
+    flat_surface flat;
+    flat.seam.assign(rest.facets.twin.size(), 0);
+    over_cutting(rest, 0.3).run(flat.seam, 2.0, 1);
+    number_fans(rest, flat);
+    const cut_surface cut = cut_surface::of(rest, flat);
+    const mesh<triangle> disk(cut.points, cut.cells);
+    const auto map = barycentric_map(disk, {.stretch_rounds = 1});
+    flat.uv.resize(flat.fan.size());
+    for (std::size_t k = 0; k < flat.fan.size(); ++k) flat.uv[k] = map.uv[u(cut.cells[k / 3][k % 3])];
+    relax(rest, flat, 60, 1e-6);
+    REQUIRE(flat.energy > 4.5);
+    double before = flat.energy;
+    for (int turn = 0; turn < 30 && flat.energy > 4.01; ++turn)
+    {
+        REQUIRE(cut_strained(rest, flat, 0.5 * (flat.energy - 4)) > 0);
+        number_fans(rest, flat);
+        relax(rest, flat, 60, 1e-6);
+        CHECK(flat.energy <= before);
+        before = flat.energy;
+        check_no_flips(rest, flat);
+    }
+    CHECK(flat.energy <= 4.01);
+}
+
+TEST_CASE("seam search: plain shapes of a dozen triangles are within the bound")
+{
+    for (const double bound : {4.1, 4.02, 4.001})
+    {
+        const rest_surface rest = rest_of(limbs(1));
+        seam_search search(rest, {.bound = bound, .over = 0.85});
+        REQUIRE(search.run());
+        CHECK(search.result().energy <= bound);
+        check_no_flips(rest, search.result());
+        // Where layers are parted everywhere, no border meets itself.
+        seam_search parted(rest, {.bound = bound, .over = 0.85, .everywhere = true});
+        REQUIRE(parted.run());
+        CHECK(parted.result().energy <= bound);
+        CHECK(parted.overlap() < 1e-9);
+    }
+}
+
+TEST_CASE("straightening: corners of a coarse mesh stay on the seam")
+{
+    const auto m = test::cubes({{0, 0, 0}}, 1);
+    const auto f = facets(m);
+    const auto sides = starting_sides(m);
+    std::vector<char> seam(f.twin.size(), 0);
+    const auto rest = rest_of(m);
+    // Over three corners of a face: the diagonal is shorter.
+    for (idx s = 0; s < 3 && std::count(seam.begin(), seam.end(), char(1)) == 0; ++s)
+    {
+        const double longest = std::max({rest.length[0], rest.length[1], rest.length[2]});
+        if (rest.length[u(s)] < longest) continue;
+        for (const idx side : {rest_surface::next(s), rest_surface::last(s)}) set_seam(rest, seam, side, 1);
+    }
+    REQUIRE(std::count(seam.begin(), seam.end(), char(1)) == 4);
+    budget unlimited;
+    auto moved = seam;
+    straighten(m, f, moved, {}, {}, unlimited, rest.price, {.distance = 0.1, .least_length = 0.6});
+    CHECK(moved == seam);
+    straighten(m, f, moved, {}, {}, unlimited, rest.price, {.distance = 1, .least_length = 0.6});
+    CHECK(seam_price(rest, moved) < seam_price(rest, seam));
+}
+
+TEST_CASE("waist cuts: part a bar between its ends")
+{
+    std::set<test::cube_cell> boxes;
+    for (int x = 0; x < 8; ++x) boxes.insert({x, 0, 0});
+    const auto m = test::cubes(boxes, 2);
+    const auto rest = rest_of(m);
+    std::vector<idx> all(m.cells().size());
+    std::iota(all.begin(), all.end(), idx(0));
+    const std::vector<char> none(rest.price.size(), 0);
+    const auto cuts = waist_cutting(m, all, none, rest.price).cuts();
+    REQUIRE(cuts.size() == 5);
+    for (const auto& one : cuts)
+    {
+        CHECK(one.price == doctest::Approx(4)); // around the bar
+        auto seam = none;
+        for (const std::size_t s : one.sides) set_seam(rest, seam, static_cast<idx>(s), 1);
+        CHECK(pieces_between(rest.facets, seam).second == 2);
+    }
 }

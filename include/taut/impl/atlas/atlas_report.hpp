@@ -61,16 +61,19 @@ struct atlas_report
     std::vector<std::string> notes;    ///< decisions of the library
     std::vector<chart_summary> charts; ///< in the order of chart_mesh
     certificate flips;                 ///< certificate of all triangles in the atlas, exact
-    std::size_t overlaps = 0; ///< pairs of edges of chart borders that meet, and of charts one in the other; exact
-    std::size_t polygons = 0; ///< polygons of more than three corners that are convex in space
-    std::size_t concave = 0;  ///< those of them that are not convex in the atlas; exact
-    double distortion = 0;    ///< area mean of the isometric energy at one common scale; 4: none
-    double worst = 0;         ///< the largest of a chart
-    double stretch_l2 = 1;    ///< of Sander et al. 2001, at one common scale that keeps the area; 1: none
-    double stretch_linf = 1;  ///< the same, the largest of a triangle
-    double area = 0;          ///< of the surface that has charts
-    double utilization = 0;   ///< area of the triangles by the area of the tiles
-    double seam_length = 0;   ///< length of the edges inside the surface that were cut, in its units
+    std::size_t overlaps = 0;   ///< pairs of edges of chart borders that meet, and of charts one in the other; exact
+    std::size_t polygons = 0;   ///< polygons of more than three corners that are convex in space
+    std::size_t concave = 0;    ///< those of them that are not convex in the atlas; exact
+    double distortion = 0;      ///< area mean of the isometric energy at one common scale; 4: none
+    double worst = 0;           ///< the largest of a chart
+    double stretch_l2 = 1;      ///< of Sander et al. 2001, at one common scale that keeps the area; 1: none
+    double stretch_linf = 1;    ///< the same, the largest of a triangle
+    double area_distortion = 1; ///< area mean of max(a, 1 / a), a the ratio of areas, both of one total; 1: none
+    double area_difference = 0; ///< sum of the differences of areas, both of total 1 (Shay et al. 2022); 0: none
+    double density_spread = 0;  ///< standard deviation by area of the texel density, by its mean; 0: none
+    double area = 0;            ///< of the surface that has charts
+    double utilization = 0;     ///< area of the triangles by the area of the tiles
+    double seam_length = 0;     ///< length of the edges inside the surface that were cut, in its units
     std::optional<double> seen_seam; ///< part of the seams seen from outside, by length, with seam_wishes::hide
     double least_distance = 0; ///< minimum distance of two charts, or of a chart and the border of its tile, in texels
     idx stacked = 0;           ///< charts that lie on a copy, with atlas_params::stack

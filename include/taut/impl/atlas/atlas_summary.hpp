@@ -38,6 +38,28 @@ inline std::pair<double, double> area_and_energy(const chart_mesh& charts, std::
     return {area, 2 * std::sqrt(stretch / area) * std::sqrt(shrink / area)};
 }
 
+/// Fills a report with what areas become at one common scale.
+inline void take_densities(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv,
+                           const ideal_elements<triangle>& ideal, double scale)
+{
+    double all = 0, distorted = 0, differing = 0, density = 0, square = 0;
+    for (std::size_t c = 0; c < ideal.measure.size(); ++c)
+    {
+        const double area = ideal.measure[c];
+        const double ratio =
+            scale * scale * glm::determinant(shape_matrix<2>(charts.surface.cells()[c], uv, ideal.inverse[c]));
+        all += area;
+        distorted += area * (ratio > 0 ? std::max(ratio, 1 / ratio) : std::numeric_limits<double>::infinity());
+        differing += area * std::abs(std::abs(ratio) - 1);
+        density += area * std::sqrt(std::abs(ratio));
+        square += area * std::abs(ratio);
+    }
+    if (!(all > 0)) return;
+    report.area_distortion = distorted / all;
+    report.area_difference = differing / all;
+    report.density_spread = std::sqrt(std::max(0.0, square / all - density / all * density / all)) / (density / all);
+}
+
 /// Fills a report with the measures of charts, each separately and all at one common scale.
 /// uv: one per vertex of charts.surface, in the tiles; layout: without placements if there is none
 inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<const vec2> uv, const packing& layout)
@@ -100,6 +122,7 @@ inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<
     for (const double x : values) sum += x;
     report.stretch_l2 = std::sqrt(sum / in_space);
     report.stretch_linf = largest.empty() ? 1 : *std::max_element(largest.begin(), largest.end());
+    take_densities(report, charts, uv, ideal, scale);
     report.utilization = layout.utilization;
 }
 

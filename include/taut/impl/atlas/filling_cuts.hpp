@@ -45,7 +45,8 @@ public:
     /// The cheapest cuts between parts of the area, from one end of the chart to the other.
     std::vector<cut> cuts() const
     {
-        constexpr std::array<std::array<double, 2>, 3> between{{{0.4, 0.6}, {0.2, 0.45}, {0.55, 0.8}}};
+        constexpr std::array<std::array<double, 2>, 5> between{
+            {{0.4, 0.6}, {0.2, 0.45}, {0.55, 0.8}, {0.08, 0.2}, {0.8, 0.92}}};
         std::vector<idx> order(along_.size());
         std::iota(order.begin(), order.end(), idx(0));
         std::stable_sort(order.begin(), order.end(), [&](idx a, idx b) { return along_[u(a)] < along_[u(b)]; });

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <taut/impl/atlas/atlas_summary.hpp>
+#include <taut/impl/atlas/convex_relaxing.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
 #include <taut/impl/atlas/filling_cuts.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
@@ -162,6 +163,17 @@ private:
         return best;
     }
 
+    /// Moves vertices so that convex polygons become convex in the plane, and lets the maps around follow.
+    void make_convex()
+    {
+        const auto concave = charts_with_concave(*charts_, polygons_, flat_);
+        const auto bad = settle_charts(*charts_, polygons_, flat_, {});
+        if (params_.keep_charts && !params_.relax) return;
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            if (concave[k] && !bad[k])
+                relax_convex(*charts_, k, polygons_, flat_, [this] { return report_.complete && budget_.in_time(); });
+    }
+
     /// Packs charts into the tiles, rounded as in the file.
     void lay()
     {
@@ -172,7 +184,7 @@ private:
         }
         // Where polygons are made convex there is room for it: nothing is beside a chart yet.
         polygons_ = convex();
-        if (polygons_.size() > 0) settle_charts(*charts_, polygons_, flat_, {});
+        if (polygons_.size() > 0) make_convex();
         auto params = params_.packing;
         params.limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("pack")};
         params.densities = densities_of(*charts_);
@@ -209,9 +221,6 @@ private:
                 uv_[v] += vec2(params_.origin.x - 10 * row, (params_.origin.y + row) * params.aspect);
         }
         bad_ = settle_charts(*charts_, polygons_, uv_, {.stored = params_.stored, .reach = params.rounding});
-        if (std::getenv("TR"))
-            for (std::size_t k = 0; k < bad_.size(); ++k)
-                if (bad_[k]) std::fprintf(stderr, "bad %zu of %zu\n", k, bad_.size());
         if (stacks_)
         {
             stacks_->share(uv_);
@@ -428,6 +437,8 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
     }
     if (params.symmetric && (params.keep_charts || !params.pinned.empty()))
         throw parameter_error("symmetric", "makes charts; none can be kept or pinned");
+    if (params.symmetric && params.stack)
+        throw parameter_error("stack", "is of copies, and mirror images are none; leave out `symmetric`");
     if (!params.wishes.weights.empty() && (params.symmetric || !params.pinned.empty()))
         throw parameter_error("weights", "are of the whole surface; leave out `symmetric` and `pinned`");
     if (!params.groups.empty() && params.groups.size() != m.cells().size())

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <span>
@@ -96,11 +95,6 @@ private:
                 missed += excess > 0;
             }
             now.holds = now.mean <= bound && excess <= 0;
-            if (std::getenv("TR"))
-                std::fprintf(
-                    stderr,
-                    "turn %d flattened %.4f crossing %d mean %.4f apart %.4f bound %.4f overlap %.4f charts %d\n", turn,
-                    flattened, int(crossing), now.mean, rate, bound, cutting.overlap(), int(now.charts.charts()));
             const double mean = now.mean;
             const bool holds = now.holds;
             // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
@@ -139,7 +133,6 @@ private:
                 sew_up(std::vector<char>(c_.energy_.size(), 1), false, limits);
         }
         if (!c_.report_.complete) return lay_unfinished();
-        if (!c_.report_.complete) return lay_unfinished();
         if (!best->holds) c_.keep_apart(best->bad);
         if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
         best->bad.resize(c_.energy_.size(), 0);
@@ -147,8 +140,8 @@ private:
             if (!(c_.energy_[k] <= c_.params_.charts.max_distortion)) best->bad[k] = 1;
         if (std::count(best->bad.begin(), best->bad.end(), char(1)) > 0) mend_rest(best->bad);
         if (!c_.report_.complete) lay_unfinished();
-        if (const double mean = mean_energy(); rough && c_.report_.complete && mean > c_.params_.charts.mean_distortion)
-            c_.report_.notes.push_back(rough_note(mean));
+        if (const double mean = mean_energy(); c_.report_.complete && mean > c_.params_.charts.mean_distortion)
+            c_.report_.notes.push_back(note_above(mean, rough));
     }
 
     /// Of a run that has ended: what has no good map becomes patches.
@@ -162,14 +155,13 @@ private:
         c_.cut_unfinished(c_.triangles_as_laid(), crosses);
     }
 
-    std::string rough_note(double mean) const
+    std::string note_above(double mean, bool rough) const
     {
         char text[200];
-        std::snprintf(
-            text, sizeof text,
-            "the mean energy is %.4g where %.4g is wanted, which short seams do not reach on a rough surface; "
-            "more charts do (--prefer packing)",
-            mean, c_.params_.charts.mean_distortion);
+        std::snprintf(text, sizeof text,
+                      "the mean energy is %.4g where %.4g is wanted, which short seams do not reach%s; more charts do "
+                      "(--prefer packing)",
+                      mean, c_.params_.charts.mean_distortion, rough ? " on a rough surface" : "");
         return text;
     }
 
@@ -203,12 +195,6 @@ private:
         c_.energy_.clear();
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
-        if (std::getenv("TR"))
-        {
-            std::fprintf(stderr, "after straighten %.4f:", price_of_seams(prices));
-            for (double e : c_.energy_) std::fprintf(stderr, " %.5f", e);
-            std::fprintf(stderr, "\n");
-        }
         auto bad = c_.unfit();
         const auto touching = touching_charts();
         for (std::size_t k = 0; k < bad.size(); ++k) bad[k] = bad[k] || touching[k];
@@ -333,6 +319,7 @@ private:
         for (std::size_t s = 0; s < factors.size(); ++s) factors[s] = c_.factors_[part.origin(s)];
         params.weights = factors;
         params.least_fill = 0;
+        params.unite_rounds = std::max(params.unite_rounds, 6); // few charts, whatever they are like
         params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
         params.limits = {std::max(c_.budget_.left(), budget::seconds(1e-6)), c_.asking("charts")};
         const auto maps = [this](const chart_mesh& charts, std::span<const vec2> start)

@@ -62,7 +62,7 @@ public:
         constexpr double any = 0.05, chart = 0.03; // lengths by the root of the area
         const double root = std::sqrt(rest_.total);
         const double apart = any * root + worth_ * overlap() * rest_.total;
-        return seam_price(rest_, flat_.seam) + chart * root * pieces_between(rest_.facets, flat_.seam).second +
+        return seam_price(rest_, flat_.seam) + chart * root * (pieces_between(rest_.facets, flat_.seam).second - 1) +
                (border_crossings(rest_, flat_, 1) > 0 ? apart : 0);
     }
 

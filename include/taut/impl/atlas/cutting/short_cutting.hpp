@@ -258,7 +258,7 @@ private:
     {
         search_setting one{.bound = bound, .over = 0.85, .part = params_.part, .proceed = [this] { return proceed(); }};
         search_setting two = one;
-        two.least_weight = 0.15;
+        two.least_weight = 0.6;
         constexpr idx few = 200; // triangles that all settings cut alike
         return triangles < few ? std::vector{one} : std::vector{one, two};
     }
