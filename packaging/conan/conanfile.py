@@ -49,7 +49,7 @@ class TautConan(ConanFile):
     def generate(self):
         CMakeDeps(self).generate()
         toolchain = CMakeToolchain(self)
-        for part in ("TAUT_TESTS", "TAUT_EXAMPLES", "TAUT_BENCH", "TAUT_TOOLS"):
+        for part in ("TAUT_TESTS", "TAUT_EXAMPLES", "TAUT_BENCH", "TAUT_MPI", "TAUT_TOOLS"):
             toolchain.cache_variables[part] = False
         toolchain.generate()
 

@@ -30,7 +30,7 @@ class Taut < Formula
   def install
     (buildpath/"stb").install resource("stb")
     system "cmake", "-S", ".", "-B", "build", *std_cmake_args,
-           "-DTAUT_TESTS=OFF", "-DTAUT_EXAMPLES=OFF", "-DTAUT_BENCH=OFF", "-DTAUT_TOOLS=ON",
+           "-DTAUT_TESTS=OFF", "-DTAUT_EXAMPLES=OFF", "-DTAUT_BENCH=OFF", "-DTAUT_MPI=OFF", "-DTAUT_TOOLS=ON",
            "-DTAUT_STB_INCLUDE=#{buildpath}/stb"
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"

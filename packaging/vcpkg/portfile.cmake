@@ -12,7 +12,7 @@ endif()
 set(VCPKG_BUILD_TYPE release) # headers, and sources of their bodies
 vcpkg_cmake_configure(
     SOURCE_PATH "${SOURCE_PATH}"
-    OPTIONS -DTAUT_TESTS=OFF -DTAUT_EXAMPLES=OFF -DTAUT_BENCH=OFF ${program})
+    OPTIONS -DTAUT_TESTS=OFF -DTAUT_EXAMPLES=OFF -DTAUT_BENCH=OFF -DTAUT_MPI=OFF ${program})
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(PACKAGE_NAME taut CONFIG_PATH share/cmake/taut)
 vcpkg_fixup_pkgconfig()

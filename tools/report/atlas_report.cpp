@@ -83,8 +83,7 @@ std::string atlas_report_html(const atlas_page& page)
         for (const double x : column.values) values.push_back(known(x));
         list.push_back({{"name", column.name}, {"values", std::move(values)}});
     }
-    constexpr double highest = 10;
-    data["histogram"] = {{"highest", highest}, {"parts", histogram(page, 40, highest)}};
+    data["histogram"] = {{"least", least_excess}, {"most", most_excess}, {"parts", histogram(page, 40)}};
 
     shown_mesh shown(page.points, page.cells, page.uv, page.chart);
     shown.simplify(page.most_triangles);
