@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,10 @@ namespace taut::report
 
 namespace
 {
+
+static_assert(std::endian::native == std::endian::little,
+              "reports hold arrays as this machine has them, and browsers take them as little-endian; build taut for a "
+              "little-endian machine, or without its tools (TAUT_TOOLS=OFF)");
 
 /// Numbers as the page reads them back into a typed array: little-endian bytes in base64.
 template <class Number>
