@@ -2,14 +2,15 @@
 """Pages of the Python reference: a page a public module, with the signature and docstring of each of its names. Used by
 scripts/site.
 
-    python_reference.py FOLDER
+    python_reference.py FOLDER | --check
 
-writes the pages into a folder that is not there; the exit code is 1 if a public name has no docstring."""
+writes the pages into a folder that is not there, or --check none; the exit code is 1 if a public name has no docstring."""
 
 import ast
 import pathlib
 import re
 import sys
+import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGE = ROOT / "python/taut"
@@ -155,6 +156,10 @@ def write(folder):
 
 if __name__ == "__main__":
     try:
-        write(pathlib.Path(sys.argv[1]))
+        if sys.argv[1] == "--check":
+            with tempfile.TemporaryDirectory() as folder:
+                write(pathlib.Path(folder) / "pages")
+        else:
+            write(pathlib.Path(sys.argv[1]))
     except ValueError as e:
         sys.exit(str(e))

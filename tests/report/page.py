@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "view"))
-from browser import Browser  # noqa: E402
+from browser import Browser, names  # noqa: E402
 
 chromium = shutil.which("chromium") or shutil.which("chromium-browser")
 if not chromium:
@@ -78,17 +78,6 @@ def texture(b, dark):
     v, texel = b.evaluate(f"({colour})(0, {front})")
     assert max(v) > 0.45 and min(v) < 0.55 or (texel[0] > texel[1]) == (max(v) < 0.45), (v, texel)
     b.key("d")
-
-
-def names(b):
-    """All that has the keyboard's focus has a role and a name for screen readers."""
-    nameless = []
-    for node in b.call("Accessibility.getFullAXTree")["nodes"]:
-        value = lambda key: node.get(key, {}).get("value")
-        focusable = any(p["name"] == "focusable" and p["value"].get("value") for p in node.get("properties", []))
-        if focusable and value("role") not in ("RootWebArea", "row") and not value("name"):
-            nameless.append(node)
-    assert not nameless, nameless[:3]
 
 
 def visit(dark):
