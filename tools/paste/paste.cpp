@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
