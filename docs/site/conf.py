@@ -8,10 +8,13 @@ copyright = "2026, the taut authors"
 release = version = os.environ["TAUT_VERSION"]
 
 extensions = ["myst_parser"]
+myst_enable_extensions = ["attrs_inline"]  # {.only-light} of pictures
 myst_heading_anchors = 6  # as the links of the pages say them
 html_theme = "furo"
 html_title = f"taut {release}"
 html_copy_source = False
+html_static_path = ["docs/site/static"]
+html_css_files = ["pictures.css"]
 html_show_sphinx = False
 pygments_style = "friendly"
 pygments_dark_style = "monokai"

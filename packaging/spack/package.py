@@ -38,6 +38,7 @@ class Taut(CMakePackage):
             self.define("TAUT_TESTS", False),
             self.define("TAUT_EXAMPLES", False),
             self.define("TAUT_BENCH", False),
+            self.define("TAUT_MPI", False),
             self.define_from_variant("TAUT_TOOLS", "cli"),
             self.define_from_variant("TAUT_MPI", "mpi"),
         ]

@@ -70,8 +70,9 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
                                "channels": old.shape[2] if old.ndim == 3 else 1, "filter": filter, "wrap": wrap,
                                "samples": int(samples), "gutter": math.inf if gutter is None else float(gutter)}
     if size is not None:
+        both: Any = (size, size) if np.ndim(size) == 0 else size
         try:
-            width, height = map(int, (size, size) if np.ndim(size) == 0 else size)
+            width, height = (int(n) for n in both)
         except (TypeError, ValueError):
             raise ParameterError(f"size: is {size!r}, but must be one number of texels, or (width, height)",
                                  field="size") from None

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -56,3 +57,14 @@ def test_what_the_user_has_set_stays(monkeypatch):
     monkeypatch.setattr(_drivers, "_SYSTEM", pathlib.Path("/nowhere"))
     _drivers.announce()
     assert os.environ["OCL_ICD_VENDORS"] == "/mine" and "OCL_ICD_FILENAMES" not in os.environ
+
+
+def test_wheels_have_the_version_of_the_headers():
+    tomllib = pytest.importorskip("tomllib")
+    version_of = pytest.importorskip("packaging.version").Version
+    root = pathlib.Path(__file__).resolve().parents[2]
+    provider = tomllib.loads((root / "pyproject.toml").read_text())["tool"]["scikit-build"]["metadata"]["version"]
+    header = (root / provider["input"]).read_text()
+    stated = re.search(r'TAUT_VERSION_STRING "([^"]+)"', header)[1]
+    found = re.search(provider["regex"], header)
+    assert found and version_of(found["value"]) == version_of(stated) == version_of(taut.__version__)

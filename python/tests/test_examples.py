@@ -34,7 +34,7 @@ def folder(tmp_path_factory):
 
 def last_line(*command):
     package = pathlib.Path(taut.__file__).parents[1]
-    done = subprocess.run([sys.executable, *map(str, command)], capture_output=True, text=True, timeout=120,
+    done = subprocess.run([sys.executable, *map(str, command)], capture_output=True, text=True, timeout=300,
                           env={**os.environ, "PYTHONPATH": str(package)})
     assert done.returncode == 0, done.stderr
     return done.stdout.strip().splitlines()[-1]
@@ -61,6 +61,14 @@ def test_programs_without_arguments(name, words):
 def test_many(folder, tmp_path):
     (folder / "bad.obj").write_text("v 0 0 0\n")
     assert re.match(r"(bowl|torus|bad)\.obj: ", last_line(EXAMPLES / "many.py", folder, tmp_path / "out"))
+    assert {p.name for p in (tmp_path / "out").glob("*.obj")} == {"bowl.obj", "torus.obj"}
+
+
+@pytest.mark.parametrize("name", ["ray", "dask"])
+def test_many_on_a_cluster(folder, tmp_path, name):
+    pytest.importorskip({"ray": "ray", "dask": "distributed"}[name])
+    (folder / "bad.obj").write_text("v 0 0 0\n")
+    assert re.match(r"(bowl|torus|bad)\.obj: ", last_line(EXAMPLES / f"many_{name}.py", folder, tmp_path / "out"))
     assert {p.name for p in (tmp_path / "out").glob("*.obj")} == {"bowl.obj", "torus.obj"}
 
 

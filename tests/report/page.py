@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "view"))
-from browser import Browser  # noqa: E402
+from browser import Browser, names  # noqa: E402
 
 chromium = shutil.which("chromium") or shutil.which("chromium-browser")
 if not chromium:
@@ -44,6 +44,40 @@ def ready(b, path):
 
 def chosen(b):
     return b.evaluate("Array.from(report.chosen).map((x, f) => [f, x]).filter(([, x]) => x > 0)")
+
+
+def texture(b, dark):
+    """A texture of the user's is on both sides: red below v = 1/2, green above."""
+    b.evaluate("""(async () => {
+      const c = new OffscreenCanvas(8, 8), g = c.getContext('2d');
+      for (const [y, colour] of [[0, '#00ff00'], [4, '#ff0000']]) { g.fillStyle = colour; g.fillRect(0, y, 8, 4); }
+      await report.take(new File([await c.convertToBlob()], 'mine.png', { type: 'image/png' }));
+      globalThis.taken = true;
+    })(), 0""")
+    b.wait("globalThis.taken")
+    assert b.evaluate("document.querySelector('[data-colours=texture]').getAttribute('aria-checked')") == "true"
+    assert "mine.png: 8 x 8 texels" in b.evaluate("document.getElementById('told').textContent")
+    b.screenshot(f"{folder}/texture-{'dark' if dark else 'light'}.png")
+    colour = """(k, f) => {
+      const pane = report.panes[k], gl = pane.renderer.getContext(), r = pane.canvas.getBoundingClientRect(), texel = new Uint8Array(4);
+      pane.renderer.render(pane.scene, pane.camera);
+      const [x, y] = (%s)(pane, f), s = pane.renderer.getPixelRatio();
+      gl.readPixels(Math.round((x - r.left) * s), Math.round((r.bottom - y) * s), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, texel);
+      const v = [0, 1, 2].map((i) => report.flat[2 * report.atlas.faces[3 * f + i] + 1]);
+      return [v, Array.from(texel)];
+    }""" % MIDDLE
+    seen = set()
+    b.evaluate("report.hovered = -1, report.choose()")  # no marks
+    for f in range(0, 12 * 12 * 12, 7):
+        v, texel = b.evaluate(f"({colour})(1, {f})")
+        if max(v) < 0.45 or min(v) > 0.55:
+            assert (texel[0] > texel[1]) == (max(v) < 0.45), (f, v, texel)
+            seen.add(max(v) < 0.45)
+    assert seen == {True, False}
+    front = b.evaluate("(() => { const p = report.panes[0], r = p.canvas.getBoundingClientRect(); return p.faceAt([r.width / 2 - 40, r.height / 2 - 30]); })()")
+    v, texel = b.evaluate(f"({colour})(0, {front})")
+    assert max(v) > 0.45 and min(v) < 0.55 or (texel[0] > texel[1]) == (max(v) < 0.45), (v, texel)
+    b.key("d")
 
 
 def visit(dark):
@@ -125,13 +159,17 @@ def visit(dark):
                 b.screenshot(f"{folder}/{colours}-{'dark' if dark else 'light'}.png")
         b.key("Escape")
         b.wait("report.selected === -1")
+        texture(b, dark)
+        names(b)
 
         # The histogram is of all area, and a bar shows its faces.
         parts = b.evaluate("report.data.histogram.parts")
         assert abs(sum(parts) - 1) < 1e-9
         k = max(range(len(parts)), key=parts.__getitem__)
         b.evaluate(f"document.querySelectorAll('#histogram rect')[{k}].focus()")
-        low, high = 4 * 10 ** (k / 40), 4 * 10 ** ((k + 1) / 40)
+        least, most = b.evaluate("[report.data.histogram.least, report.data.histogram.most]")
+        bound = lambda i: 4 * (1 + least * (most / least) ** (i / 40))
+        low, high = 0 if k == 0 else bound(k - 1), bound(k) if k <= 40 else float("inf")
         energies = b.evaluate("Array.from(report.energy)")
         expected = [f for f, e in enumerate(energies) if e is not None and low <= e < high]
         assert [f for f, _ in chosen(b)] == expected and expected

@@ -134,12 +134,21 @@ TEST_CASE("report: the table and the histogram are of all triangles by their are
     CHECK(table[3].values == std::vector<double>{4, 5});
     CHECK(table[4].name == "iterations");
 
-    const auto parts = report::histogram(page, 10, 10);
-    REQUIRE(parts.size() == 11);
-    CHECK(parts[0] + parts.at(std::size_t(10 * std::log10(1.25))) >= doctest::Approx(1));
+    const auto parts = report::histogram(page, 10);
+    REQUIRE(parts.size() == 12);
+    const double range = std::log(report::most_excess / report::least_excess);
+    const auto bar_of = [&](double energy)
+    { return 1 + std::size_t(10 * std::log((energy / 4 - 1) / report::least_excess) / range); };
+    CHECK(parts[0] > 0.1); // energy 4
+    CHECK(parts[0] + parts.at(bar_of(5)) == doctest::Approx(1));
+    std::vector<double> fine(two.energy.size(), 4.01);
+    fine[0] = 4.1;
+    page.energy = fine;
+    CHECK(report::histogram(page, 10).at(bar_of(4.01)) > 0.9);
+    CHECK(bar_of(4.1) > bar_of(4.01) + 1);
     std::vector<double> folded(two.energy.size(), std::numeric_limits<double>::infinity());
     page.energy = folded;
-    CHECK(report::histogram(page, 10, 10).back() == doctest::Approx(1));
+    CHECK(report::histogram(page, 10).back() == doctest::Approx(1));
 }
 
 TEST_CASE("report: what is shown cannot end the page's script, and asks for nothing else")

@@ -134,3 +134,14 @@ class Browser:
         bad = [e["params"]["exceptionDetails"]["text"] for e in self.events if e.get("method") == "Runtime.exceptionThrown"]
         return bad + [e["params"]["entry"]["text"] for e in self.events
                       if e.get("method") == "Log.entryAdded" and e["params"]["entry"]["level"] == "error"]
+
+
+def names(b):
+    """All that has the keyboard's focus has a role and a name for screen readers."""
+    nameless = []
+    for node in b.call("Accessibility.getFullAXTree")["nodes"]:
+        value = lambda key: node.get(key, {}).get("value")
+        focusable = any(p["name"] == "focusable" and p["value"].get("value") for p in node.get("properties", []))
+        if focusable and value("role") not in ("RootWebArea", "row") and not value("name"):
+            nameless.append(node)
+    assert not nameless, nameless[:3]

@@ -5,7 +5,7 @@ import shutil
 import sys
 import time
 
-from browser import Browser
+from browser import Browser, names
 from client import Program
 from program import dome
 
@@ -53,6 +53,23 @@ def visit(dark):
         at_rest(b)
         energy, flipped, pins, _, first = shown(b)
         assert flipped == 0 and pins == 0
+
+        # A texture of the user's, on both sides and in the plane of the map.
+        b.evaluate("""(async () => {
+          const c = new OffscreenCanvas(8, 8), g = c.getContext('2d');
+          g.fillStyle = '#00ff00'; g.fillRect(0, 0, 8, 8);
+          await taut.takeImage(new File([await c.convertToBlob()], 'mine.png', { type: 'image/png' }));
+          globalThis.taken = true;
+        })(), 0""")
+        b.wait("globalThis.taken")
+        assert b.evaluate("document.getElementById('texture').getAttribute('aria-pressed')") == "true"
+        assert b.evaluate("taut.panes().map((p) => p.material.uniforms.textured.value)") == [1, 1]
+        uv = b.evaluate("Array.from(taut.right.geometry.getAttribute('flatUv').array)")
+        assert min(uv) > -1e-6 and abs(max(uv) - 1) < 1e-5
+        b.screenshot(f"{folder}/texture-{'dark' if dark else 'light'}.png")
+        click(b, "texture")
+        b.wait("taut.panes().every((p) => p.material.uniforms.textured.value === 0)")
+        names(b)
 
         # Two pins: one is put, one is dragged.
         held, at = pick(b, 0.3, 0.5)

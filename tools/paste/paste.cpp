@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <memory>
@@ -48,7 +49,7 @@ namespace
 
 struct paste_options
 {
-    std::string source, target, region, output, map, stats, picture, device;
+    std::string source, target, region, output, map, stats, picture, render, device;
     int at = -1, onto = -1, triangles = 0, texels = impl::feature_map_params{}.resolution;
     double radius = 0, degrees = 0, reach = paste_params{}.reach;
     paste_pose pose;
@@ -189,6 +190,8 @@ private:
                              { file.write(extension(options_.map) == ".png" ? preview() : io::exr_of(*map_)); }});
         if (!options_.picture.empty())
             files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
+        if (!options_.render.empty())
+            files.push_back({options_.render, [&](io::atomic_file& file) { file.write(render()); }});
         if (!options_.stats.empty())
             files.push_back({options_.stats, [&](io::atomic_file& file) { file.write(text_of(json())); }});
         if (place_of_report_ && has_reader(place_of_report_))
@@ -196,23 +199,47 @@ private:
         writing([&] { io::write_files(files); });
     }
 
+    /// The vertices of the feature in the result: its last ones.
+    std::vector<idx> feature_vertices() const
+    {
+        std::vector<idx> vertices(static_cast<std::size_t>(paste_->part().region.surface.vertex_count()));
+        std::iota(vertices.begin(), vertices.end(), static_cast<idx>(paste_->points().size() - vertices.size()));
+        return vertices;
+    }
+
+    /// Direction of the feature in the result.
+    vec3 feature_front() const { return paste_->transform().rotation * paste_->part().normal; }
+
+    vec3 up_of_target() const { return io::guess_orientation(target_->surface.points(), target_->surface.cells()).up; }
+
     /// Source, target and result side by side, as who looks at the feature sees them; the feature in checks.
     std::string picture() const
     {
-        const auto& part = paste_->part();
-        std::vector<idx> in_result(static_cast<std::size_t>(part.region.surface.vertex_count()));
-        std::iota(in_result.begin(), in_result.end(), static_cast<idx>(paste_->points().size() - in_result.size()));
-        const vec3 front = paste_->transform().rotation * part.normal;
-        const auto up = io::guess_orientation(target_->surface.points(), target_->surface.cells()).up;
+        const vec3 normal = paste_->part().normal, front = feature_front(), up = up_of_target();
         const auto source_up = io::guess_orientation(source_->surface.points(), source_->surface.cells()).up;
-        return encode_png(io::side_by_side({view(source_->surface, region_, part.normal, source_up, options_.source),
-                                            view(target_->surface, {}, front, up, options_.target),
-                                            view(paste_->surface(), in_result, front, up, "result")}));
+        const auto seen_by_viewer = [](const io::image& both)
+        {
+            io::image one(both.width() / 2, both.height());
+            for (int y = 0; y < one.height(); ++y)
+                for (int x = 0; x < one.width(); ++x) one(x, y) = both(x, y);
+            return one;
+        };
+        return encode_png(
+            io::side_by_side({seen_by_viewer(views(source_->surface, region_, normal, source_up, options_.source)),
+                              seen_by_viewer(views(target_->surface, {}, front, up, options_.target)),
+                              seen_by_viewer(views(paste_->surface(), feature_vertices(), front, up, "result"))}));
     }
 
-    /// One of them; marked: vertices between which triangles have checks.
-    static io::image view(const mesh<triangle>& m, const std::vector<idx>& marked, const vec3& front, vec3 up,
-                          const std::string& title)
+    /// The result, from where the feature is seen and from behind; the feature in checks.
+    std::string render() const
+    {
+        const auto title = std::filesystem::path(options_.output).filename().string();
+        return encode_png(views(paste_->surface(), feature_vertices(), feature_front(), up_of_target(), title));
+    }
+
+    /// A surface from the front and from behind; marked: vertices between which triangles have checks.
+    static io::image views(const mesh<triangle>& m, const std::vector<idx>& marked, const vec3& front, vec3 up,
+                           const std::string& title)
     {
         if (std::abs(glm::dot(up, front)) > 0.8) up = std::abs(front.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 1, 0);
         const vec3 right = glm::normalize(glm::cross(up, front)), above = glm::cross(front, right);
@@ -224,12 +251,7 @@ private:
             const vec3& p = m.points()[static_cast<std::size_t>(v)];
             uv[static_cast<std::size_t>(v)] = {glm::dot(p, right), glm::dot(p, above)};
         }
-        const auto both =
-            io::render_picture(m.points(), m.cells(), uv, {.title = title, .checks = 16, .up = up, .front = front});
-        io::image one(both.width() / 2, both.height());
-        for (int y = 0; y < one.height(); ++y)
-            for (int x = 0; x < one.width(); ++x) one(x, y) = both(x, y);
-        return one;
+        return io::render_picture(m.points(), m.cells(), uv, {.title = title, .checks = 16, .up = up, .front = front});
     }
 
     nlohmann::ordered_json json() const
@@ -309,7 +331,7 @@ private:
         for (const auto& note : notes_of(quality_, meeting_)) lines.add("note", note);
         lines.add("time", duration(clock_.now()) + ": read " + duration(read_seconds_) + ", device " +
                               duration(device_seconds_) + ", paste " + duration(paste_seconds_));
-        lines.add_written({options_.output, options_.map, options_.picture, options_.stats});
+        lines.add_written({options_.output, options_.map, options_.picture, options_.render, options_.stats});
         return (std::ostringstream() << lines).str();
     }
 
@@ -389,6 +411,8 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
         ->check(CLI::Range(8, 8192));
     add_stats(app, options->stats);
     add_output(app, "--picture", options->picture, {.extensions = {".png"}}, "Draw source, target and result");
+    add_output(app, "--render", options->render, {.extensions = {".png"}},
+               "Draw the result from both sides, the feature with a checkerboard");
     add_time_limit(app, options->time_limit, "Give up after S seconds");
     add_device(app, options->device);
     app.add_flag("-q,--quiet", options->quiet, "No report");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,10 @@ namespace taut::report
 
 namespace
 {
+
+static_assert(std::endian::native == std::endian::little,
+              "reports hold arrays as this machine has them, and browsers take them as little-endian; build taut for a "
+              "little-endian machine, or without its tools (TAUT_TOOLS=OFF)");
 
 /// Numbers as the page reads them back into a typed array: little-endian bytes in base64.
 template <class Number>
@@ -83,8 +88,7 @@ std::string atlas_report_html(const atlas_page& page)
         for (const double x : column.values) values.push_back(known(x));
         list.push_back({{"name", column.name}, {"values", std::move(values)}});
     }
-    constexpr double highest = 10;
-    data["histogram"] = {{"highest", highest}, {"parts", histogram(page, 40, highest)}};
+    data["histogram"] = {{"least", least_excess}, {"most", most_excess}, {"parts", histogram(page, 40)}};
 
     shown_mesh shown(page.points, page.cells, page.uv, page.chart);
     shown.simplify(page.most_triangles);

@@ -57,15 +57,19 @@ std::vector<chart_column> chart_table(const atlas_page& page)
     return table;
 }
 
-std::vector<double> histogram(const atlas_page& page, int steps, double highest)
+std::vector<double> histogram(const atlas_page& page, int steps)
 {
-    std::vector<double> parts(static_cast<std::size_t>(steps) + 1, 0);
+    std::vector<double> parts(static_cast<std::size_t>(steps) + 2, 0);
     double whole = 0;
     for (std::size_t t = 0; t < page.cells.size(); ++t)
     {
         if (page.chart[t] < 0) continue;
-        const double place = std::max(0.0, std::log(page.energy[t] / 4) / std::log(highest) * steps), a = area(page, t);
-        parts[place < steps ? static_cast<std::size_t>(place) : parts.size() - 1] += a; // NaN is beyond
+        const double excess = page.energy[t] / 4 - 1, a = area(page, t);
+        const double place = std::log(excess / least_excess) / std::log(most_excess / least_excess) * steps;
+        if (excess < least_excess)
+            parts.front() += a;
+        else
+            parts[place < steps ? static_cast<std::size_t>(place) + 1 : parts.size() - 1] += a; // NaN is beyond
         whole += a;
     }
     for (double& part : parts) part = whole > 0 ? part / whole : 0;

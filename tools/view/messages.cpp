@@ -12,7 +12,10 @@ namespace taut::view
 namespace
 {
 
-static_assert(std::endian::native == std::endian::little);
+static_assert(
+    std::endian::native == std::endian::little,
+    "messages hold numbers as this machine has them, and the page takes them as little-endian; build taut for a "
+    "little-endian machine, or without its tools (TAUT_TOOLS=OFF)");
 
 enum class kind : std::uint8_t
 {

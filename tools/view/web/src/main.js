@@ -68,6 +68,9 @@ class Page {
     const pasting = model.shows === 'paste';
     element('feature').hidden = !pasting;
     for (const id of ['tools', 'mapping', 'save-pins']) element(id).hidden = pasting;
+    element('texture').parentElement.hidden = model.shows !== 'map';
+    this.image = null;
+    element('texture').setAttribute('aria-pressed', 'false');
     if (pasting) this.tool = 'place';
     if (model.shows === 'map') {
       if (!this.left) {
@@ -102,6 +105,7 @@ class Page {
     if (this.model.shows === 'paste') this.values.fill(4);
     else distortion(this.mesh, state.positions, this.model.dimension, this.values);
     this.right.setFaces('value', this.values);
+    if (this.image) this.right.setUv(this.#inImage(), 0);
     // Where pictures take long the other view waits until there is no further state for a while.
     clearTimeout(this.#later);
     if (state.writer && this.#drag?.vertex >= 0) this.#sendDrag();
@@ -122,8 +126,44 @@ class Page {
   #showOnLeft() {
     if (!this.left || !this.state) return;
     this.left.setFaces('value', this.values);
-    this.left.setUv(this.state.positions, this.checks);
+    if (this.image) this.left.setUv(this.#inImage(), 0);
+    else this.left.setUv(this.state.positions, this.checks);
     this.left.setMarks(this.marks);
+  }
+
+  /** The user's texture, of a file, or none; it fills the box of the map as it is now, and stays there. */
+  async takeImage(file) {
+    try {
+      this.image = file && (await createImageBitmap(file, { imageOrientation: 'flipY', premultiplyAlpha: 'none', colorSpaceConversion: 'none' }));
+    } catch (e) {
+      return this.note(`${file.name}: no image that this browser reads; give a PNG, JPEG or WebP`, true);
+    }
+    const x = this.state.positions, low = [Infinity, Infinity], high = [-Infinity, -Infinity];
+    for (let i = 0; i < x.length; ++i) {
+      low[i % 2] = Math.min(low[i % 2], x[i]);
+      high[i % 2] = Math.max(high[i % 2], x[i]);
+    }
+    this.box = { low, size: Math.max(high[0] - low[0], high[1] - low[1], 1e-12) };
+    for (const pane of this.panes()) {
+      if (this.image) pane.setImage(this.image);
+      pane.material.uniforms.textured.value = this.image ? 1 : 0;
+    }
+    if (this.image) this.right.setUv(this.#inImage(), 0);
+    this.#showOnLeft();
+    this.right.draw();
+    element('texture').setAttribute('aria-pressed', String(Boolean(this.image)));
+  }
+
+  #inImage() {
+    const { low, size } = this.box;
+    return this.state.positions.map((x, i) => (x - low[i % 2]) / size);
+  }
+
+  /** Asks for an image, or takes it away. */
+  #texture() {
+    if (this.model.shows !== 'map') return;
+    if (this.image) this.takeImage(null);
+    else element('image').click();
   }
 
   #showPaste(state) {
@@ -242,10 +282,11 @@ class Page {
       'turn-left': () => this.#change({ turn: this.pose.turn + Math.PI / 36 }), 'turn-right': () => this.#change({ turn: this.pose.turn - Math.PI / 36 }),
       smaller: () => this.#change({ scale: this.pose.scale / 1.05 }), larger: () => this.#change({ scale: this.pose.scale * 1.05 }),
       keep: () => this.send(messages.keep(++this.gesture)),
-      save: () => this.send(messages.save()), 'save-pins': () => this.savePins(),
+      texture: () => this.#texture(), save: () => this.send(messages.save()), 'save-pins': () => this.savePins(),
     };
     element('softness').onpointerdown = () => ++this.gesture;
     element('softness').oninput = () => { if (this.state) this.place({ softness: Number(element('softness').value) }); };
+    element('image').onchange = (e) => { if (e.target.files[0]) this.takeImage(e.target.files[0]); e.target.value = ''; };
     for (const [id, f] of Object.entries(actions)) element(id).onclick = () => { if (this.state) f(); };
   }
 
@@ -262,6 +303,7 @@ class Page {
       w: () => this.#toggleWires(),
     };
     const keys = {
+      t: click('texture'),
       d: () => this.choose('drag'), s: () => this.choose('region'), l: () => this.choose('path'), n: () => this.relax(true),
       f: () => this.toggleFocus(), u: () => this.straighten(0), v: () => this.straighten(1), ' ': () => this.relax(),
       Delete: () => this.unpin(), Backspace: () => this.unpin(), Escape: () => { this.region.clear(); this.line = []; this.#mark(); },

@@ -3,7 +3,7 @@
 // a picture takes long, as without a GPU, those of a motion have fewer pixels and no edges; the one at rest has all.
 import {
   BufferAttribute, BufferGeometry, Color, DoubleSide, LinearSRGBColorSpace, LineBasicMaterial, LineSegments, Mesh as Drawn, MOUSE,
-  OrthographicCamera, Points, PointsMaterial, Scene, ShaderMaterial, Spherical, TOUCH, Vector3, WebGLRenderer,
+  NoColorSpace, OrthographicCamera, Points, PointsMaterial, RepeatWrapping, Scene, ShaderMaterial, Spherical, Texture, TOUCH, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 
@@ -27,24 +27,31 @@ const vertexShader = `
     gl_Position = projectionMatrix * p;
   }`;
 
-// From the surface's own colour at 4, where shape is kept, over yellow to red; or a colour for each label.
+// From the surface's own colour at 4, where shape is kept, over yellow to red, by the logarithm of energy / 4 - 1; a colour
+// for each label; or an image.
 const fragmentShader = `
   uniform vec3 base;
   uniform float checks;
   uniform float shade;
   uniform float heat;
   uniform float labels;
+  uniform float textured;
+  uniform sampler2D image;
   varying vec3 seen;
   varying vec2 st;
   varying float v;
   varying float c;
   varying float l;
   void main() {
-    float t = clamp(log(max(v, 4.0) / 4.0) / log(5.0), 0.0, 1.0);
+    float t = clamp(log(max(v / 4.0 - 1.0, 1e-3) / 1e-3) / log(4000.0), 0.0, 1.0);
     vec3 warm = mix(vec3(0.96, 0.80, 0.35), vec3(0.80, 0.16, 0.18), smoothstep(0.35, 1.0, t));
     vec3 colour = mix(base, warm, heat * smoothstep(0.0, 0.35, t));
     vec3 own = 0.66 + 0.24 * cos(6.2832 * (fract(0.618034 * l) + vec3(0.0, 0.67, 0.33)));
     if (labels > 0.0 && l > -0.5) colour = own;
+    if (textured > 0.0) {
+      vec4 texel = texture2D(image, st);
+      colour = mix(base, texel.rgb, texel.a);
+    }
     vec2 square = floor(st * checks);
     if (checks > 0.0 && mod(square.x + square.y, 2.0) > 0.5) colour *= 0.80;
     colour = mix(colour, vec3(0.25, 0.48, 0.95), 0.55 * c);
@@ -105,7 +112,7 @@ export class Pane {
       this.geometry.setAttribute(name, new BufferAttribute(new Float32Array(size * corners), size));
     this.material = new ShaderMaterial({
       vertexShader, fragmentShader, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
-      uniforms: { base: { value: new Color() }, checks: { value: 0 }, shade: { value: this.flat ? 0 : 1 }, heat: { value: 1 }, labels: { value: 0 } },
+      uniforms: { base: { value: new Color() }, checks: { value: 0 }, shade: { value: this.flat ? 0 : 1 }, heat: { value: 1 }, labels: { value: 0 }, textured: { value: 0 }, image: { value: null } },
     });
     const surface = new Drawn(this.geometry, this.material);
     this.vertices = new Float32Array(3 * mesh.vertexCount);
@@ -148,6 +155,16 @@ export class Pane {
     scatter(faces, x, 2, uv.array);
     uv.needsUpdate = true;
     this.material.uniforms.checks.value = checks;
+    this.draw();
+  }
+
+  /** An image for `textured`, repeated beyond the unit square; its top row is at v = 1. bitmap: with the bottom row first. */
+  setImage(bitmap) {
+    const { image } = this.material.uniforms;
+    image.value?.dispose();
+    image.value = Object.assign(new Texture(bitmap), {
+      flipY: false, wrapS: RepeatWrapping, wrapT: RepeatWrapping, colorSpace: NoColorSpace, anisotropy: this.renderer.capabilities.getMaxAnisotropy(), needsUpdate: true,
+    });
     this.draw();
   }
 

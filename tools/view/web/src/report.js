@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The report of an atlas: model and atlas linked, and what is to be known of both.
-import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments, Vector3 } from 'three';
+import { BufferAttribute, BufferGeometry, GreaterDepth, LineBasicMaterial, LineSegments, Vector3 } from 'three';
 import { drawHistogram, drawStages } from './charts.js';
 import { Mesh } from './mesh.js';
 import { Pane } from './pane.js';
@@ -9,7 +9,7 @@ import { ChartTable, plain } from './table.js';
 const element = (id) => document.getElementById(id);
 
 const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;
-const keys = { d: 'heat', c: 'charts', k: 'checks' };
+const keys = { d: 'heat', c: 'charts', k: 'checks', t: 'texture' };
 
 class Report {
   selected = -1; // chart
@@ -87,10 +87,14 @@ class Report {
       const shape = new BufferGeometry();
       shape.setAttribute('position', pane.wires.geometry.getAttribute('position'));
       shape.setIndex(ends.map((i) => pane.mesh.faces[i]));
-      const lines = new LineSegments(shape, new LineBasicMaterial());
-      lines.frustumCulled = false;
-      pane.scene.add(lines);
-      return lines;
+      // What is behind the model is drawn, too, fainter.
+      const hidden = { transparent: true, opacity: 0.3, depthFunc: GreaterDepth, depthWrite: false };
+      return (pane.flat ? [{}] : [{}, hidden]).map((style) => {
+        const lines = new LineSegments(shape, new LineBasicMaterial(style));
+        lines.frustumCulled = false;
+        pane.scene.add(lines);
+        return lines;
+      });
     });
     const tiles = new Set(), corners = [];
     for (let i = 0; i < this.flat.length; i += 2)
@@ -112,12 +116,13 @@ class Report {
   #applyTheme() {
     const style = getComputedStyle(document.documentElement);
     for (const pane of this.panes) pane.applyTheme();
-    for (const lines of this.lines ?? []) lines.material.color.set(style.getPropertyValue('--wire').trim());
+    for (const lines of this.lines?.flat() ?? []) lines.material.color.set(style.getPropertyValue('--seam').trim());
     this.tiles?.material.color.set(style.getPropertyValue('--quiet').trim());
   }
 
-  /** What colours say: 'heat', 'charts' or 'checks'. */
+  /** What colours say: 'heat', 'charts', 'checks', or 'texture', for which an image is asked for where there is none. */
   colour(by) {
+    if (by === 'texture' && !this.image) return element('image').click();
     for (const b of document.querySelectorAll('[data-colours]')) {
       b.setAttribute('aria-checked', String(b.dataset.colours === by));
       b.tabIndex = b.dataset.colours === by ? 0 : -1;
@@ -127,8 +132,22 @@ class Report {
       uniforms.heat.value = by === 'heat' ? 1 : 0;
       uniforms.labels.value = by === 'charts' ? 1 : 0;
       uniforms.checks.value = by === 'checks' ? 32 : 0;
+      uniforms.textured.value = by === 'texture' ? 1 : 0;
       pane.draw();
     }
+  }
+
+  /** The user's texture, of a file. */
+  async take(file) {
+    try {
+      this.image = await createImageBitmap(file, { imageOrientation: 'flipY', premultiplyAlpha: 'none', colorSpaceConversion: 'none' });
+    } catch (e) {
+      element('told').textContent = `${file.name}: no image that this browser reads; give a PNG, JPEG or WebP`;
+      return;
+    }
+    for (const pane of this.panes) pane.setImage(this.image);
+    this.colour('texture');
+    element('told').textContent = `${file.name}: ${this.image.width} x ${this.image.height} texels`;
   }
 
   /** Marks faces; without an argument those that hovering and selecting ask for. */
@@ -184,7 +203,7 @@ class Report {
     const on = element(id).getAttribute('aria-pressed') !== 'true';
     element(id).setAttribute('aria-pressed', String(on));
     this.panes.forEach((pane, i) => {
-      if (id === 'seams') this.lines[i].visible = on;
+      if (id === 'seams') for (const lines of this.lines[i]) lines.visible = on;
       else pane.edges = on;
       pane.draw();
     });
@@ -193,14 +212,21 @@ class Report {
   #listen() {
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.#applyTheme());
     const radios = [...document.querySelectorAll('[data-colours]')];
-    for (const b of radios) b.onclick = () => this.colour(b.dataset.colours);
+    for (const b of radios) {
+      b.onclick = () => {
+        // Once more: another image.
+        if (b.dataset.colours === 'texture' && b.getAttribute('aria-checked') === 'true') element('image').click();
+        else this.colour(b.dataset.colours);
+      };
+    }
+    element('image').onchange = (e) => { if (e.target.files[0]) this.take(e.target.files[0]); e.target.value = ''; };
     element('colours').onkeydown = (e) => {
       const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[e.key];
       if (!step) return;
       e.preventDefault();
       const next = radios[(radios.indexOf(e.target) + step + radios.length) % radios.length];
       next.focus();
-      next.click();
+      this.colour(next.dataset.colours);
     };
     element('seams').onclick = () => this.#toggle('seams');
     element('edges').onclick = () => this.#toggle('edges');
