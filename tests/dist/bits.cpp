@@ -5,6 +5,7 @@
 #include <random>
 
 #include <dist/pieces.hpp>
+#include <taut/deform.hpp>
 #include <taut/impl/dist/shape_body.hpp>
 
 namespace taut::test
@@ -164,6 +165,28 @@ TEST_CASE("dist communicator: what is exchanged arrives in order; sums are the s
     CHECK(std::isnan(all.most(last ? std::nan("") : 1.0)));
     CHECK(all.least(1.0 + all.rank()) == 1);
     CHECK(all.most(-1.0 - all.rank()) == -1);
+}
+
+TEST_CASE("dist deform: a mesh gathered on process 0 gets the shape that one process finds")
+{
+    const auto m = bar(2);
+    dist::deform_params<tetrahedron> how{.constraints = ends(MPI_COMM_WORLD, m, stretched)};
+    const auto p = dealt(MPI_COMM_WORLD, m);
+    dist::session<tetrahedron> s(MPI_COMM_WORLD, p, how);
+    auto& body = s.body();
+    dist::impl::petsc_scope petsc;
+    dist::impl::held_part<tetrahedron> held(body.mesh_part());
+    held.take(body.mesh_part(), how.constraints);
+    const double lengths = body.at_rest().lengths;
+    const auto found =
+        dist::impl::gathered_solve<tetrahedron>::run(body.mesh_part(), held, lengths, how, body.current(), {});
+    REQUIRE(found.has_value());
+    queue q;
+    const auto alone = deform(q, m, deform_params<tetrahedron>{.constraints = serial_ends(m, stretched)});
+    for (std::size_t v = 0; v < body.mesh_part().own; ++v)
+        for (int k = 0; k < 3; ++k)
+            CHECK(found->x[3 * v + static_cast<std::size_t>(k)] / lengths ==
+                  doctest::Approx(alone.x[static_cast<std::size_t>(body.mesh_part().ids[v])][k]).epsilon(1e-4));
 }
 
 } // namespace taut::test

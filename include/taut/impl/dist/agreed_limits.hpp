@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <exception>
@@ -41,6 +42,15 @@ public:
         if (wish == 2) all_.fail(failure);
         over_ = wish == 1;
         return !over_;
+    }
+
+    /// What is left for a part of the call that one process does by itself.
+    run_limits left() const
+    {
+        auto some = limits_;
+        some.time_limit =
+            std::max(some.time_limit - std::chrono::duration<double>(seconds()), decltype(some.time_limit)(0));
+        return some;
     }
 
     bool over() const { return over_; }

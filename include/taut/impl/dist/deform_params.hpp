@@ -61,6 +61,7 @@ struct deform_params
     void validate() const
     {
         limits.validate();
+        solver.validate();
         if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
             throw parameter_error("weights", "must be uniform or measure");
         if (solve.method != solve::method::automatic && solve.method != solve::method::newton)

@@ -13,6 +13,7 @@
 
 #include <taut/impl/dist/agreed_limits.hpp>
 #include <taut/impl/dist/certify_part.hpp>
+#include <taut/impl/dist/gathered_solve.hpp>
 #include <taut/impl/dist/harmonic_draft.hpp>
 #include <taut/impl/dist/objective.hpp>
 #include <taut/impl/dist/own_queue.hpp>
@@ -250,11 +251,29 @@ private:
         if (bodies.parts() > 1 && draft(bodies)) return true;
         if (follow_parts(bodies, clock, r)) return true;
         constexpr std::int64_t most = 200000; // vertices, whose factors fit into memory
-        if (clock.over() || objective_->unknowns() > most || !multigrid_.use_factors()) return false;
-        // Directions of multigrid may be too coarse for slivers.
-        r.notes.push_back("steps stuck; from there on systems are solved by factorisation");
+        if (!clock.over() && objective_->unknowns() <= most && multigrid_.use_factors())
+        {
+            // Directions of multigrid may be too coarse for slivers.
+            r.notes.push_back("steps stuck; from there on systems are solved by factorisation");
+            r.reason.clear();
+            if (follow_parts(pinned_bodies<Element>(part_, held_, x_, rest_.lengths), clock, r)) return true;
+        }
+        return !clock.over() && gather(clock, r);
+    }
+
+    /// Leaves it to process 0, where the mesh is not too large for that.
+    bool gather(agreed_limits& clock, report& r)
+    {
+        using gathered = gathered_solve<Element>;
+        if (part_.cells > gathered::most_cells || !held_.slides.empty()) return false;
+        const auto found = gathered::run(part_, held_, rest_.lengths, params_, x_, clock.left());
+        if (!clock.proceed() || !found) return false;
+        x_ = found->x;
+        objective_->put(x_);
+        r.steps += found->steps;
+        r.notes.push_back("steps stuck; process 0 gathered the mesh and brought the pins to their places by itself");
         r.reason.clear();
-        return follow_parts(pinned_bodies<Element>(part_, held_, x_, rest_.lengths), clock, r);
+        return !apart();
     }
 
     bool follow_parts(const pinned_bodies<Element>& bodies, agreed_limits& clock, report& r)

@@ -39,6 +39,7 @@ struct smooth_params
     void validate() const
     {
         limits.validate();
+        solver.validate();
         if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
         if (!(flat >= 0 && flat < 1)) throw parameter_error("flat", "must be in [0, 1)");
     }

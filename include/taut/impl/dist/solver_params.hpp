@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include <taut/impl/core/error.hpp>
+
 namespace taut::dist
 {
 
@@ -21,6 +23,13 @@ struct solver_params
 
     /// Options of PETSc that overrule those of the preconditioner, as `-pc_type gamg -pc_gamg_threshold 0.01`.
     std::string options = {};
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (preconditioner == dist::preconditioner::block_jacobi && !options.empty())
+            throw parameter_error("solver.options", "the block diagonal has none; leave them out");
+    }
 };
 
 /// Stable name of a preconditioner.

@@ -4,6 +4,8 @@
 #include <taut/impl/dist/file/volume_pieces.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>

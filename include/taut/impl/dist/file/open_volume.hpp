@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include <taut/impl/dist/file/gmsh_lines.hpp>
 #include <taut/impl/dist/file/medit_lines.hpp>
