@@ -10,6 +10,7 @@
 #include <sanitizer/allocator_interface.h>
 #include <taut/impl/gltf/gltf.hpp>
 
+#include "../../src/gltf.cpp"
 #include "../support/gltf_models.hpp"
 #include "mutator.hpp"
 #include "require.hpp"
