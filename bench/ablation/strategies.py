@@ -47,11 +47,6 @@ STRATEGIES = [
     stage(2, "newton", "Newton's method on the regularised energy from the harmonic map"),
     stage(2, "pull", "springs from an injective map"),
     stage(2, "stretch", "the same towards regular triangles, with detours"),
-    stage(2, "regular", "newton towards regular triangles"),
-    stage(2, "best", "newton from the best map so far"),
-    stage(2, "laid", "newton from a map that ignores fixed coordinates"),
-    stage(2, "shape", "newton without the term of area"),
-    stage(2, "lbfgs", "L-BFGS on the regularised energy"),
     stage(2, "operator", "Algorithm 2 of the paper on the device"),
     Strategy("margin", "steps away from the boundary of the feasible set once a map is injective",
              ("untangle/margin.hpp", "if (steps == 0) return;", "if (steps == 0 || {off}) return;")),
@@ -163,11 +158,6 @@ STRATEGIES = [
               "            report_.reason = \"a chart has no map\";\n            return;\n        }\n"
               "        const auto first_bad")),
 ]
-
-# Taken out together: what one strategy loses another may make good, so the sum is tried as well.
-TOGETHER = {
-    "2D tail": ["2D regular", "2D best", "2D laid", "2D shape", "2D lbfgs"],
-}
 
 SWITCH = """// SPDX-License-Identifier: MIT
 #pragma once
