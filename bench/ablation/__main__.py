@@ -168,8 +168,6 @@ def main():
     if arguments.together:
         names = tuple(arguments.together.split(","))
         wanted = [(" + ".join(names), names)]
-    elif not arguments.only and not arguments.quick:
-        wanted += [(name, tuple(off)) for name, off in strategies.TOGETHER.items()]
     if not arguments.table:
         measure(runs, cases, wanted, arguments.most, arguments.jobs)
     rows = [row(name, off, cases, runs) for name, off in wanted]

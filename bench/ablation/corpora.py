@@ -136,7 +136,7 @@ def swirl(p, turn):
 
 def flat_problem(kind, seed):
     rng = random.Random(f"{kind} {seed}")
-    n = rng.choice([6, 10, 16, 24, 40, 56])
+    n = rng.choice([8, 12, 16, 24] if kind == "hard" else [6, 10, 16, 24, 40, 56])
     points, cells, rim = square(n, rng)
     inner = sorted(set(range(len(points))) - set(rim))
     initial, fixed = list(points), set()
@@ -158,6 +158,12 @@ def flat_problem(kind, seed):
         far = rng.uniform(0.1, 1.2)
         for v in fixed:
             initial[v] = tuple(c + far * rng.uniform(-1, 1) for c in points[v])
+    elif kind == "hard":  # as handles, more of them and farther: springs jam
+        fixed = set(rng.sample(range(len(points)), rng.randrange(6, 22)))
+        far = rng.uniform(0.5, 1.5)
+        for v in fixed:
+            r, a = far * math.sqrt(rng.random()), rng.uniform(0, 2 * math.pi)
+            initial[v] = (points[v][0] + r * math.cos(a), points[v][1] + r * math.sin(a))
     elif kind == "collapse":
         fixed = set(rim)
         for v in inner:
@@ -290,7 +296,7 @@ def moved_pins(run, meshes, work):
 
 def generated(work):
     cases = []
-    for kind in ("star", "comb", "swirl", "handles", "collapse", "scramble"):
+    for kind in ("star", "comb", "swirl", "handles", "hard", "collapse", "scramble"):
         for seed in range(20):
             problem = work / f"{kind}{seed}.prob"
             write_problem(problem, *flat_problem(kind, seed))

@@ -47,11 +47,6 @@ STRATEGIES = [
     stage(2, "newton", "Newton's method on the regularised energy from the harmonic map"),
     stage(2, "pull", "springs from an injective map"),
     stage(2, "stretch", "the same towards regular triangles, with detours"),
-    stage(2, "regular", "newton towards regular triangles"),
-    stage(2, "best", "newton from the best map so far"),
-    stage(2, "laid", "newton from a map that ignores fixed coordinates"),
-    stage(2, "shape", "newton without the term of area"),
-    stage(2, "lbfgs", "L-BFGS on the regularised energy"),
     stage(2, "operator", "Algorithm 2 of the paper on the device"),
     Strategy("margin", "steps away from the boundary of the feasible set once a map is injective",
              ("untangle/margin.hpp", "if (steps == 0) return;", "if (steps == 0 || {off}) return;")),
@@ -136,12 +131,12 @@ STRATEGIES = [
     Strategy("stop when settled", "the end where steps next to a minimum gain nothing",
              ("solve/stopping.hpp", "if (settled(k)) return", "if (settled(k) && !{off}) return")),
     # Volumes and sessions
-    Strategy("drafts of volumes", "initial guesses with fixed vertices at their targets",
+    Strategy("guesses of volumes", "initial guesses with fixed vertices at their targets",
              ("map/session/session_steps.hpp", "return D == 3 && Element::oriented && held_.slides().empty() && lasts(clock, 20);",
               "return D == 3 && Element::oriented && held_.slides().empty() && lasts(clock, 20) && !{off};")),
-    Strategy("drafts on coarser volumes", "the same on a coarser volume first",
+    Strategy("guesses on coarser volumes", "the same on a coarser volume first",
              ("map/session/turned_draft.hpp", "        if (!smaller) return {};\n", "        if (!smaller || {off}) return {};\n")),
-    Strategy("mended drafts", "shrunk elements of a draft untangled and minimised by themselves",
+    Strategy("repaired guesses", "shrunk elements of a guess untangled and minimised by themselves",
              ("map/session/turned_draft.hpp", "if (const auto inside = around_shrunk(poisson, here, found.x); !inside.empty())",
               "if (const auto inside = around_shrunk(poisson, here, found.x); !inside.empty() && !{off})")),
     Strategy("paths in parts", "bodies of fixed vertices that rotate are led in parts",
@@ -163,11 +158,6 @@ STRATEGIES = [
               "            report_.reason = \"a chart has no map\";\n            return;\n        }\n"
               "        const auto first_bad")),
 ]
-
-# Taken out together: what one strategy loses another may make good, so the sum is tried as well.
-TOGETHER = {
-    "2D tail": ["2D regular", "2D best", "2D laid", "2D shape", "2D lbfgs"],
-}
 
 SWITCH = """// SPDX-License-Identifier: MIT
 #pragma once
