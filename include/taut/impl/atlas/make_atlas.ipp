@@ -131,6 +131,7 @@ private:
     waist_cutting::cut best_waist(double use, double longest) const
     {
         constexpr std::size_t tried = 2; // charts, those that waste most
+        constexpr idx largest = 12'000;  // triangles: minimum cuts of more take long
         constexpr double worth = 0.12;   // gain of use, by length by the root of the area
         const auto outlines =
             find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
@@ -146,6 +147,7 @@ private:
         for (std::size_t i = 0; i < std::min(tried, waste.size()); ++i)
         {
             const std::size_t k = waste[i].second;
+            if (charts_->first_cell[k + 1] - charts_->first_cell[k] > largest) continue;
             std::vector<idx> triangles(charts_->cell_origins.begin() + charts_->first_cell[k],
                                        charts_->cell_origins.begin() + charts_->first_cell[k + 1]);
             std::sort(triangles.begin(), triangles.end());
