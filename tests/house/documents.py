@@ -76,7 +76,7 @@ def main():
                 file = (page.parent / path).resolve() if path else page
                 if not file.exists():
                     fault(page, number, f"{target}: no such file")
-                elif name and name not in anchors(file):
+                elif name and file.suffix == ".md" and name not in anchors(file):
                     fault(page, number, f"{target}: no such heading")
 
     files = [file for folder in SOURCES for file in (root / folder).rglob("*") if file.is_file()]

@@ -6,11 +6,13 @@ test_paste()
     grid 24 >source.obj
     grid 30 off >target.off
     expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --stats stats.json \
-        --picture out.png
+        --picture out.png --render seen.png
     says out '^feature +source.obj: [0-9]+ triangles, rim of [0-9]+ vertices' '^target .*rim projected$' \
-        '^result .*manifold, 120 boundary edges' '^seam +angle' '^wrote +out.obj, out.png, stats.json$'
+        '^result .*manifold, 120 boundary edges' '^seam +angle' '^wrote +out.obj, out.png, seen.png, stats.json$'
     silent err
-    [ "$(od -An -tx1 -N8 out.png | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "out.png is no PNG"
+    for picture in out.png seen.png; do
+        [ "$(od -An -tx1 -N8 $picture | tr -d ' \n')" = 89504e470d0a1a0a ] || fail "$picture is no PNG"
+    done
     keys stats.json schema manifold boundary_edges degenerate_triangles folded_edges self_intersections correspondence triangles seconds.map seconds.transform
     says values '^schema=taut.paste/1$' '^boundary_edges=120$' '^degenerate_triangles=0$' '^folded_edges=0$' '^self_intersections=0$'
     expect 0 check out.obj
