@@ -15,9 +15,9 @@
 #include <support/edit_meshes.hpp>
 #include <support/rbf_points.hpp>
 
+#include <taut/impl/edit/paste.hpp>
 #include <taut/impl/edit/rbf.hpp>
 #include <taut/impl/edit/rbf_evaluator.hpp>
-#include <taut/impl/edit/paste.hpp>
 #include <taut/impl/io/read_surface.hpp>
 
 #include "measure.hpp"

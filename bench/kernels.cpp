@@ -358,7 +358,7 @@ private:
                                 numbers, // in place: what must be read once
                                 numbers + of(r) + of(e)};
         const double triad = bench::device_triad(queue_);
-        const char* names[] = {"product", "smoothing",   "hessians",     "assembly",          "refresh",
+        const char* names[] = {"product", "smoothing",   "hessians",     "assembly",         "refresh",
                                "cycle",   "restriction", "prolongation", "coarsest_inverse", "coarsest_product"};
         nlohmann::ordered_json row = {
             {"what", "newton"}, {"triangles", m.cells().size()}, {"triad_GBps", triad * 1e-9}};

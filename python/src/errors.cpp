@@ -6,9 +6,9 @@
 
 #include <taut/atlas.hpp>
 #include <taut/errors.hpp>
+#include <taut/kernel.hpp>
 #include <taut/paste.hpp>
 #include <taut/volume_file.hpp>
-#include <taut/kernel.hpp>
 
 namespace taut::python
 {

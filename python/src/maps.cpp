@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Maps of surfaces to the plane, and what any map is like.
 #include <taut/atlas.hpp>
+#include <taut/mesh.hpp>
 #include <taut/parameterize.hpp>
 #include <taut/quality.hpp>
-#include <taut/mesh.hpp>
 
 #include "bindings.hpp"
 #include "call.hpp"
@@ -85,7 +85,7 @@ nb::dict for_cut_surface(const nb::dict& given, const mesh<triangle>& whole, con
         changed[name] = array_of(ids);
     }
     impl::refuse_vertices(constraint_fault::contradictory, std::move(divided),
-                            "on the seam, which divides them into several; pin vertices beside it");
+                          "on the seam, which divides them into several; pin vertices beside it");
     return changed;
 }
 

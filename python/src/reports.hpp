@@ -8,8 +8,8 @@
 
 #include <taut/certify.hpp>
 #include <taut/parameterize.hpp>
-#include <taut/session.hpp>
 #include <taut/quality.hpp>
+#include <taut/session.hpp>
 
 #include "arrays.hpp"
 

@@ -3,10 +3,10 @@
 #include <optional>
 #include <utility>
 
-#include <taut/untangle.hpp>
-#include <taut/volume_file.hpp>
 #include <taut/deform.hpp>
 #include <taut/smooth.hpp>
+#include <taut/untangle.hpp>
+#include <taut/volume_file.hpp>
 
 #include "bindings.hpp"
 #include "call.hpp"
@@ -132,7 +132,7 @@ nb::object deform_of(const array& V, const nb::list& C, const nb::dict& keywords
     if (job->cells.overlapping && params.data.weights.empty()) params.data.weights = job->cells.weights;
     if (const auto a = given.rows("rest")) params.rest = places_of(*a, "rest");
     if (const auto a = given.rows("initial")) params.initial = points_of<D>(*a, "initial");
-    given.read_word("shapes", params.shapes, {{"rest", wanted_shapes::rest}, {"regular", wanted_shapes::regular}});
+    given.read_word("shapes", params.shapes, {{"rest", target_shapes::rest}, {"regular", target_shapes::regular}});
     read_slides(params, given);
     read_limits(params, given, watched.shared, "deform");
     return told(run(watched.shared, given.progress(),
@@ -162,7 +162,7 @@ nb::object smooth_of(const array& V, const nb::list& C, const nb::dict& keywords
     given.read_word(
         "boundary", params.boundary,
         {{"fixed", smooth_boundary::fixed}, {"sliding", smooth_boundary::sliding}, {"free", smooth_boundary::free}});
-    given.read_word("shapes", params.shapes, {{"rest", wanted_shapes::rest}, {"regular", wanted_shapes::regular}});
+    given.read_word("shapes", params.shapes, {{"rest", target_shapes::rest}, {"regular", target_shapes::regular}});
     if (const auto a = given.rows("rest")) params.rest = places_of(*a, "rest");
     given.read("worst_exponent", params.worst_exponent);
     if (const auto a = given.rows("fixed")) params.fixed = ids_of(*a);

@@ -9,8 +9,8 @@
 namespace taut::test
 {
 
-/// The forms of kernels that the device of the tests can take: a CPU both, a GPU its own; that for CPUs keeps hundreds of
-/// kilobytes an item there.
+/// The forms of kernels that the device of the tests can take: a CPU both, a GPU its own; that for CPUs keeps hundreds
+/// of kilobytes an item there.
 inline std::vector<impl::lane_form> lane_forms()
 {
     if (choose_device().is_cpu()) return {{16, 16}, {32, 1}};

@@ -49,14 +49,14 @@ TEST_CASE("cell faces: normals point out, and the sides of cells that meet know 
     CHECK(inner == 2 * 3); // two tetrahedra; a hexahedron with a wedge and with a pyramid
 }
 
-TEST_CASE("cell faces: a face with three cells is crowded")
+TEST_CASE("cell faces: a face with three cells is non_manifold")
 {
     auto s = test::small_volume(false);
     s.cells.push_back({io::cell_kind::tetrahedron, {0, 1, 2, static_cast<idx>(s.points.size())}, 1});
     s.points.push_back({0.5, 0.4, 1});
     const auto sides =
         io::cell_faces_of(io::impl::parse_volume(test::medit_text(s), io::volume_format::medit, "a.mesh"));
-    CHECK(std::count(sides.twin.begin(), sides.twin.end(), io::cell_faces::crowded) == 3);
+    CHECK(std::count(sides.twin.begin(), sides.twin.end(), io::cell_faces::non_manifold) == 3);
 }
 
 TEST_CASE("cell corners: the boundary of overlapping simplices is that of the cells")

@@ -161,13 +161,13 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
                     io::texcoord_error);
 
     // A polygon stays whole, though a third triangle meets its two halves where it is split.
-    const auto crowded =
+    const auto non_manifold =
         io::impl::parse_obj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 2 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 5 5\n"
                             "f 1/5 3/5 5/5\nf 1/1 2/2 3/3 4/4\n");
-    const auto whole = io::cut_seams(crowded).value();
+    const auto whole = io::cut_seams(non_manifold).value();
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t k = 0; k < 3; ++k)
-            CHECK(whole.corners[crowded.faces.corner(c, k)] == whole.surface.cells()[c][k]);
+            CHECK(whole.corners[non_manifold.faces.corner(c, k)] == whole.surface.cells()[c][k]);
 
     // The file says where each sheet of a vertex lies, and keeps its vertices.
     const temporary_folder folder;

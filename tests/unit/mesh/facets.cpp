@@ -43,7 +43,7 @@ void check_against_map(const mesh<Element>& m)
         else
         {
             ++crowds;
-            for (std::size_t i = 0; i < list.size(); ++i) CHECK(at(i) == facet_table::crowded);
+            for (std::size_t i = 0; i < list.size(); ++i) CHECK(at(i) == facet_table::non_manifold);
         }
     }
     CHECK(f.crowds.size() == crowds);

@@ -203,7 +203,7 @@ TEST_CASE("judge_edges: nothing is said where the outline is free, nor after a r
     CHECK(!judged(p));
 }
 
-TEST_CASE("untangle: a crowded edge is told as the reason why there is no map")
+TEST_CASE("untangle: a non_manifold edge is told as the reason why there is no map")
 {
     const auto p = edge_over_a_floor({vec2(0, 0), vec2(1, 0), vec2(3, 0), vec2(2, 0)});
     REQUIRE(!find_infeasibility(p));

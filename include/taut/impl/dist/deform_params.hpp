@@ -9,7 +9,7 @@
 #include <taut/impl/dist/constraints.hpp>
 #include <taut/impl/dist/solver_params.hpp>
 #include <taut/impl/energy/any_energy.hpp>
-#include <taut/impl/mesh/wanted_shapes.hpp>
+#include <taut/impl/mesh/target_shapes.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
 
@@ -36,7 +36,7 @@ struct deform_params
     dist::constraints<Element> constraints = {};
 
     /// Target shapes: `regular` elements, of the mean size, have no rest shape.
-    wanted_shapes shapes = wanted_shapes::rest;
+    target_shapes shapes = target_shapes::rest;
 
     /// Initial shape, if it is not that of the mesh: one position per vertex of the piece. No element is inverted.
     std::vector<vec<D>> initial = {};

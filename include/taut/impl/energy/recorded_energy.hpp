@@ -85,8 +85,8 @@ public:
             if (n.op == impl::opcode::constant)
                 value.at(static_cast<std::size_t>(id)) = n.payload;
             else
-                value.at(static_cast<std::size_t>(id)) = *impl::apply(n, tape_[n.operands[0]].type, at(n.operands[0]),
-                                                                        at(n.operands[1]), at(n.operands[2]));
+                value.at(static_cast<std::size_t>(id)) =
+                    *impl::apply(n, tape_[n.operands[0]].type, at(n.operands[0]), at(n.operands[1]), at(n.operands[2]));
         }
         return impl::from_bits<double>(at(root_));
     }
@@ -134,7 +134,8 @@ private:
         if (n.op == impl::opcode::constant)
             return n.type == scalar_type::boolean ? t.constant(n.payload != 0)
                                                   : t.real_constant(impl::from_bits<double>(n.payload));
-        const auto at = [&](impl::node_id id) { return id == impl::no_node ? impl::no_node : place[static_cast<std::size_t>(id)]; };
+        const auto at = [&](impl::node_id id)
+        { return id == impl::no_node ? impl::no_node : place[static_cast<std::size_t>(id)]; };
         impl::node_id a = at(n.operands[0]), b = at(n.operands[1]), c = at(n.operands[2]);
         scalar_type type = n.type;
         if (n.op == impl::opcode::select)

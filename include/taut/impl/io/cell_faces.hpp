@@ -42,11 +42,11 @@ namespace taut::io
 /// Faces of all cells of the file's dimension, in the order of the cells, and their adjacency.
 struct cell_faces
 {
-    static constexpr idx boundary = -1; ///< no cell is on the other side
-    static constexpr idx crowded = -2;  ///< three cells or more share the face
+    static constexpr idx boundary = -1;     ///< no cell is on the other side
+    static constexpr idx non_manifold = -2; ///< three cells or more share the face
 
     std::vector<impl::cell_face> faces;
-    std::vector<idx> twin; ///< the other side of each, or boundary, or crowded
+    std::vector<idx> twin; ///< the other side of each, or boundary, or non_manifold
 
     /// Returns whether a side goes around as its twin does: one of the two cells has its corners in the other order.
     bool clashes(std::size_t side) const
@@ -166,7 +166,7 @@ inline cell_faces cell_faces_of(const volume_file& file)
             if (last - first == 1) continue;
             for (std::size_t k = first; k < last; ++k)
                 result.twin[static_cast<std::size_t>(order[k].side)] =
-                    last - first > 2 ? cell_faces::crowded : order[k == first ? last - 1 : first].side;
+                    last - first > 2 ? cell_faces::non_manifold : order[k == first ? last - 1 : first].side;
         }
     return result;
 }
@@ -236,7 +236,7 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
     {
         const auto& side = sides.faces[s];
         const idx twin = sides.twin[s];
-        if (twin < 0 ? !boundary || twin == cell_faces::crowded : twin < static_cast<idx>(s)) continue;
+        if (twin < 0 ? !boundary || twin == cell_faces::non_manifold : twin < static_cast<idx>(s)) continue;
         const auto face = faces.find(key_of(side.corners()));
         const idx label = face != faces.end() ? face->second : 0;
         const idx here = regions[static_cast<std::size_t>(side.cell)];
@@ -257,7 +257,7 @@ inline std::vector<mesh_finding> check_sides(const volume_file& file)
 {
     const auto sides = cell_faces_of(file);
     const auto twin_cell = [&](std::size_t s) { return sides.faces[static_cast<std::size_t>(sides.twin[s])].cell; };
-    std::vector<idx> copies, clashing, crowded;
+    std::vector<idx> copies, clashing, non_manifold;
     std::vector<std::array<idx, 4>> told;
     for (std::size_t first = 0, last = 0; first < sides.faces.size(); first = last)
     {
@@ -270,7 +270,7 @@ inline std::vector<mesh_finding> check_sides(const volume_file& file)
         {
             if (!copy && sides.twin[s] > static_cast<idx>(s) && sides.clashes(s))
                 clashing.insert(clashing.end(), {cell, twin_cell(s)});
-            if (sides.twin[s] != cell_faces::crowded) continue;
+            if (sides.twin[s] != cell_faces::non_manifold) continue;
             told.push_back(sides.faces[s].vertices);
             const auto corners = sides.faces[s].corners().size();
             std::sort(told.back().begin(), told.back().begin() + static_cast<std::ptrdiff_t>(corners));
@@ -280,7 +280,7 @@ inline std::vector<mesh_finding> check_sides(const volume_file& file)
     told.erase(std::unique(told.begin(), told.end()), told.end());
     const std::size_t named = file.dimension == 2 ? 2 : 3; // three corners of a quad say which one it is
     for (const auto& face : told)
-        crowded.insert(crowded.end(), face.begin(), face.begin() + static_cast<std::ptrdiff_t>(named));
+        non_manifold.insert(non_manifold.end(), face.begin(), face.begin() + static_cast<std::ptrdiff_t>(named));
 
     const auto pairs = [](const std::vector<idx>& ids) { return taut::impl::list_ids("pair", "pairs", ids, 2); };
     std::vector<mesh_finding> found;
@@ -292,10 +292,10 @@ inline std::vector<mesh_finding> check_sides(const volume_file& file)
                          pairs(clashing) +
                              " of cells oriented differently, in whatever order their corners are; cut the "
                              "mesh open there, or remove cells"});
-    if (!crowded.empty())
-        found.push_back({mesh_fault::non_manifold_facet, crowded,
-                         (named == 2 ? taut::impl::list_ids("edge", "edges", crowded, named)
-                                     : taut::impl::list_ids("face", "faces", crowded, named)) +
+    if (!non_manifold.empty())
+        found.push_back({mesh_fault::non_manifold_facet, non_manifold,
+                         (named == 2 ? taut::impl::list_ids("edge", "edges", non_manifold, named)
+                                     : taut::impl::list_ids("face", "faces", non_manifold, named)) +
                              " with three or more cells; remove the extra ones or separate them"});
     return found;
 }

@@ -10,7 +10,7 @@
 #include <taut/impl/core/observer.hpp>
 #include <taut/impl/energy/any_energy.hpp>
 #include <taut/impl/mesh/cell_data.hpp>
-#include <taut/impl/mesh/wanted_shapes.hpp>
+#include <taut/impl/mesh/target_shapes.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
 #include <taut/impl/untangle/params.hpp>
@@ -43,11 +43,11 @@ struct deform_params
     std::vector<vec3> rest = {};
 
     /// Target shapes: `regular` elements, of the mean size, have no rest shape.
-    wanted_shapes shapes = wanted_shapes::rest;
+    target_shapes shapes = target_shapes::rest;
 
     /// Target shapes of single elements: the edges of each from its corner 0, as columns, up to a rotation. Empty, or
-    /// one per element, none of them inverted. With wanted_shapes::rest in the lengths of the mesh, in the place of the
-    /// elements at rest; with wanted_shapes::regular in place of regular ones, all scaled to the size of the mesh.
+    /// one per element, none of them inverted. With target_shapes::rest in the lengths of the mesh, in the place of the
+    /// elements at rest; with target_shapes::regular in place of regular ones, all scaled to the size of the mesh.
     std::vector<mat<D>> targets = {};
 
     /// Owners of simplices that are the corners of cells of other kinds, and overlap (mesh/cell_corners.hpp).

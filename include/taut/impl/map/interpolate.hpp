@@ -33,7 +33,7 @@ public:
         : from_(from), to_(checked(from, std::move(to))), params_(std::move(params)), path_(from, to_)
     {
         params_.rest.clear();
-        params_.shapes = wanted_shapes::rest;
+        params_.shapes = target_shapes::rest;
     }
 
     /// Computes the shape at t: the two shapes, bit for bit, at 0 and 1. Without pins the middle of each component

@@ -27,9 +27,9 @@ struct smooth_params
     smooth_boundary boundary = smooth_boundary::sliding;
 
     /// Target shapes of elements: regular, or as in `rest`.
-    wanted_shapes shapes = wanted_shapes::regular;
+    target_shapes shapes = target_shapes::regular;
 
-    /// Rest shape for wanted_shapes::rest, one position per vertex; none: that of the mesh.
+    /// Rest shape for target_shapes::rest, one position per vertex; none: that of the mesh.
     std::vector<vec3> rest = {};
 
     /// Target shapes of single elements, and their owners, as in deform_params: those of corner_simplices::regular
@@ -113,7 +113,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
     how.shapes = params.shapes;
     how.rest = scaled(params.rest, -exponent);
     how.targets = params.targets;
-    if (params.shapes == wanted_shapes::rest)
+    if (params.shapes == target_shapes::rest)
         for (auto& edges : how.targets)
             for (int k = 0; k < Element::dimension; ++k)
                 for (int r = 0; r < Element::dimension; ++r) edges[k][r] = std::ldexp(edges[k][r], -exponent);

@@ -19,10 +19,10 @@ namespace taut
 /// facet of `cell` opposite its corner k.
 struct facet_table
 {
-    static constexpr idx boundary = -1; ///< the side has no other side
-    static constexpr idx crowded = -2;  ///< three or more cells share the facet
+    static constexpr idx boundary = -1;     ///< the side has no other side
+    static constexpr idx non_manifold = -2; ///< three or more cells share the facet
 
-    std::vector<idx> twin;                 ///< other side of each side, or boundary, or crowded
+    std::vector<idx> twin;                 ///< other side of each side, or boundary, or non_manifold
     std::vector<std::array<idx, 2>> clash; ///< pairs of sides that run the same way: one cell is flipped
     std::vector<std::vector<idx>> crowds;  ///< the sides of each facet with three or more
 
@@ -99,10 +99,11 @@ template <int D>
 bool link(std::vector<idx>& twin, const side_key<D>* first, const side_key<D>* last)
 {
     if (last - first == 1) return true;
-    const bool crowded = last - first > 2;
+    const bool non_manifold = last - first > 2;
     for (auto k = first; k != last; ++k)
-        twin[static_cast<std::size_t>(k->side())] = crowded ? facet_table::crowded : first[k == first ? 1 : 0].side();
-    return !crowded && ((first[0].tag ^ first[1].tag) & 1u) != 0;
+        twin[static_cast<std::size_t>(k->side())] =
+            non_manifold ? facet_table::non_manifold : first[k == first ? 1 : 0].side();
+    return !non_manifold && ((first[0].tag ^ first[1].tag) & 1u) != 0;
 }
 
 /// Notes what is wrong with the facet of the sides [first, last).

@@ -84,7 +84,10 @@ public:
     }
 
     /// A new independent variable, equal to no other.
-    impl::node_id variable(scalar_type type) { return intern({.op = impl::opcode::variable, .type = type, .payload = serial_++}); }
+    impl::node_id variable(scalar_type type)
+    {
+        return intern({.op = impl::opcode::variable, .type = type, .payload = serial_++});
+    }
 
     /// Element `at` of pointer argument `argument`, as of now: a later store to the argument makes a later load a
     /// different node. Inside a loop a new load stays there (it may be out of bounds for an empty loop).
@@ -107,9 +110,9 @@ public:
         if (!loops_.empty()) throw tape_error("a store inside of sum_over: return the summand instead");
         // appended, not interned: writing the same value twice is two stores
         const impl::node n{.op = impl::opcode::store,
-                     .type = (*this)[value].type,
-                     .operands = {at, value, impl::no_node},
-                     .payload = (std::uint64_t{epoch(argument)} << 32) | argument};
+                           .type = (*this)[value].type,
+                           .operands = {at, value, impl::no_node},
+                           .payload = (std::uint64_t{epoch(argument)} << 32) | argument};
         nodes_.push_back(n);
         stores_.push_back(static_cast<impl::node_id>(nodes_.size() - 1));
         ++epochs_[argument];
@@ -141,7 +144,7 @@ private:
     impl::cons_table table_;
     std::vector<impl::node_id> stores_;
     std::vector<std::uint32_t> epochs_; // stores so far, by argument
-    std::vector<impl::node_id> loops_;        // index nodes of the open loops, outermost first
+    std::vector<impl::node_id> loops_;  // index nodes of the open loops, outermost first
     std::uint64_t serial_ = 0;
     scalar_type real_ = scalar_type::f64;
 };
@@ -160,4 +163,3 @@ private:
 };
 
 } // namespace taut
-

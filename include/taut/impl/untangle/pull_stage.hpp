@@ -14,7 +14,7 @@
 #include <vector>
 
 #include <taut/impl/mesh/boundary.hpp>
-#include <taut/impl/mesh/wanted_shapes.hpp>
+#include <taut/impl/mesh/target_shapes.hpp>
 #include <taut/impl/start/harmonic.hpp>
 #include <taut/impl/start/laid.hpp>
 #include <taut/impl/untangle/stage.hpp>
@@ -26,7 +26,7 @@ namespace taut::impl
 struct pull_stage_params
 {
     std::string name;
-    wanted_shapes shapes = wanted_shapes::rest; ///< rest: as they are in the map that it starts from
+    target_shapes shapes = target_shapes::rest; ///< rest: as they are in the map that it starts from
     double area_weight = 1;                     ///< of det + 1 / det against the shape of a triangle; 0: shape alone
     /// Continues with weak springs once strong ones have jammed: fixed vertices that are not at their targets go to
     /// random positions first, so that those that block each other get past each other.
@@ -74,7 +74,7 @@ private:
         if (!hold_boundary(state) && !hold_nothing(state)) return false;
         const double measure = impl::expected_measure(problem, state.initial());
         regularized_problem<triangle> pulled{.rest = problem.rest, .held = held_, .area_weight = params_.area_weight};
-        if (params_.shapes == wanted_shapes::regular)
+        if (params_.shapes == target_shapes::regular)
             pulled.shapes = impl::regular_shapes(problem.rest, measure);
         else
         {

@@ -33,7 +33,7 @@ inline untangle_stages<triangle> host_stages(bool outline_pinned)
     const auto stretch = [&](int share)
     {
         stages.push_back(
-            std::make_unique<pull_stage>(pull_stage_params{"stretch", wanted_shapes::regular, 0.1, true, share}));
+            std::make_unique<pull_stage>(pull_stage_params{"stretch", target_shapes::regular, 0.1, true, share}));
     };
     const auto harmonic_and_newton = [&]
     {

@@ -74,7 +74,7 @@ result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const sm
     all.together([&] { params.validate(); });
     const deform_params<Element> how{.energy = energy::shape_power{params.worst_exponent},
                                      .weights = energy::weighting::uniform,
-                                     .shapes = wanted_shapes::regular,
+                                     .shapes = target_shapes::regular,
                                      .solve = params.solve,
                                      .solver = params.solver,
                                      .queue = params.queue,

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/rbf_system.hpp>
 #include <taut/impl/edit/rbf_evaluator.hpp>
+#include <taut/impl/edit/rbf_system.hpp>
 
 namespace taut::impl
 {

@@ -29,11 +29,12 @@ public:
     static constexpr std::size_t most_steps = 1 << 22;
 
     /// Calls triangle(a, b, c) with positions in the polygon, n - 2 times at most. The orientation is kept.
-    /// vertices: the number of each corner's vertex; triangles with a repeated vertex are dropped; crowded(a, c):
+    /// vertices: the number of each corner's vertex; triangles with a repeated vertex are dropped; non_manifold(a, c):
     ///           whether to avoid a diagonal, which is used only as a last resort.
     /// Returns false at the limit of work.
-    template <class Crowded, class Triangle>
-    bool split(std::span<const vec3> polygon, std::span<const idx> vertices, Crowded crowded, Triangle triangle)
+    template <class NonManifold, class Triangle>
+    bool split(std::span<const vec3> polygon, std::span<const idx> vertices, NonManifold non_manifold,
+               Triangle triangle)
     {
         p_ = polygon;
         vertices_ = vertices;
@@ -42,7 +43,7 @@ public:
         std::size_t some = first_; // of the corners that are left
         const auto look = [&](std::size_t i)
         {
-            const int own = rank_of(i), rank = own == none || !crowded(before_[i], after_[i]) ? own : own + 2;
+            const int own = rank_of(i), rank = own == none || !non_manifold(before_[i], after_[i]) ? own : own + 2;
             ears_.emplace_back(rank, length(i), vertices_[i], i, ++stamp_[i]);
             std::push_heap(ears_.begin(), ears_.end(), std::greater<>());
         };
@@ -204,8 +205,8 @@ private:
     /// Returns whether the outline goes to corner i and back.
     bool returns(std::size_t i) const { return vertices_[before_[i]] == vertices_[after_[i]]; }
 
-    /// 0: corner i is an ear. 1: one that is thin, or leaves corners on its diagonal. Those with a crowded diagonal
-    /// come after them, and what is no ear, whose triangle would lie over others, comes last.
+    /// 0: corner i is an ear. 1: one that is thin, or leaves corners on its diagonal. Those with a non_manifold
+    /// diagonal come after them, and what is no ear, whose triangle would lie over others, comes last.
     int rank_of(std::size_t i)
     {
         constexpr double thin = 1e-8; // of what would be left, or is cut off

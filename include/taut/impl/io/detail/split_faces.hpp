@@ -80,8 +80,8 @@ private:
 
     /// Appends the triangles of a face: of a polygon with a corner that cannot be used, a fan around that.
     /// Returns false if it is too large for ears.
-    template <class Crowded>
-    bool split(std::size_t f, Crowded crowded, triangles& result)
+    template <class NonManifold>
+    bool split(std::size_t f, NonManifold non_manifold, triangles& result)
     {
         const std::size_t n = u(sizes_[f]);
         const auto add = [&](std::size_t a, std::size_t b, std::size_t c)
@@ -101,7 +101,7 @@ private:
         }
         polygon_.clear();
         for (const idx v : vertices_of(f)) polygon_.push_back(points_[u(v)]);
-        return clipper_.split(polygon_, vertices_of(f), crowded, add);
+        return clipper_.split(polygon_, vertices_of(f), non_manifold, add);
     }
 
     /// The triangles that a polygon has now.
@@ -166,7 +166,7 @@ private:
             return false;
         }
 
-        bool crowded(idx v, idx w)
+        bool non_manifold(idx v, idx w)
         {
             return any(v, w, [](std::size_t, bool) { return true; });
         }
@@ -174,9 +174,9 @@ private:
         {
             return any(v, w, [](std::size_t, bool edge) { return edge; });
         }
-        bool crowded(std::span<const std::array<idx, 3>> some)
+        bool non_manifold(std::span<const std::array<idx, 3>> some)
         {
-            return faces_.any_diagonal(f_, some, [this](idx v, idx w) { return crowded(v, w); });
+            return faces_.any_diagonal(f_, some, [this](idx v, idx w) { return non_manifold(v, w); });
         }
 
     private:
@@ -201,7 +201,7 @@ private:
                                  {
                                      for (std::size_t f = begin; f < end; ++f)
                                          bad[f] = is_polygon(f) && unusable_corner(f) == u(sizes_[f]) &&
-                                                  neighbours(*this, f).crowded(triangles_of(f));
+                                                  neighbours(*this, f).non_manifold(triangles_of(f));
                                  });
         std::deque<std::size_t> open;
         for (std::size_t f = 0; f < bad.size(); ++f)
@@ -212,12 +212,12 @@ private:
         {
             const std::size_t f = open.front();
             neighbours beside(*this, f);
-            if (++turns[f] > most_turns || !beside.crowded(triangles_of(f))) continue;
+            if (++turns[f] > most_turns || !beside.non_manifold(triangles_of(f))) continue;
             const auto vertices = vertices_of(f);
             triangles found;
             split(
-                f, [&](std::size_t a, std::size_t c) { return beside.crowded(vertices[a], vertices[c]); }, found);
-            if (beside.crowded(found))
+                f, [&](std::size_t a, std::size_t c) { return beside.non_manifold(vertices[a], vertices[c]); }, found);
+            if (beside.non_manifold(found))
             {
                 found.clear();
                 split(

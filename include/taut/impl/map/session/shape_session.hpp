@@ -139,7 +139,7 @@ private:
     void put(precision how, const map& run_lengths)
     {
         this->live_.emplace(this->queue_, rest_, params_, how, run_lengths,
-                            params_.shapes == wanted_shapes::rest && params_.targets.empty() ? nullptr : &ideal_);
+                            params_.shapes == target_shapes::rest && params_.targets.empty() ? nullptr : &ideal_);
         this->load(run_lengths);
     }
 
@@ -171,7 +171,7 @@ private:
                                       std::to_string(size) + " for " + std::to_string(m.cells().size()) + " cells");
         auto found = check(
             m, {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
-        if (params.shapes == wanted_shapes::regular) // which need no rest shape
+        if (params.shapes == target_shapes::regular) // which need no rest shape
             std::erase_if(found, [](const mesh_finding& f)
                           { return f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell; });
         if constexpr (D == 3) // its hierarchy knows no facets
@@ -198,7 +198,7 @@ private:
     static ideal_elements<Element> wanted_ideals(const mesh<Element>& m, const deform_params<Element>& params,
                                                  double unit)
     {
-        const bool regular = params.shapes == wanted_shapes::regular;
+        const bool regular = params.shapes == target_shapes::regular;
         if (params.targets.empty())
             return regular ? regular_elements<Element>(m.cells().size(), whole(m)) : ideal_elements<Element>(m);
         auto wanted = elements_with_edges<Element>(params.targets, unit, "targets");
@@ -250,7 +250,7 @@ private:
     std::vector<mat<D>> wanted_elements() const override
     {
         std::vector<mat<D>> edges;
-        if (params_.shapes == wanted_shapes::regular)
+        if (params_.shapes == target_shapes::regular)
             for (const auto& inverse : ideal_.inverse) edges.push_back(invert_upper(inverse));
         return edges;
     }

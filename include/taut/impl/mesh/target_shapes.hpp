@@ -5,7 +5,7 @@ namespace taut
 {
 
 /// Target shapes of elements.
-enum class wanted_shapes
+enum class target_shapes
 {
     rest,   ///< like the elements at rest
     regular ///< all the same, with equal edges
