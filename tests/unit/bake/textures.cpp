@@ -63,7 +63,7 @@ TEST_CASE("triangles_by_tile: a triangle is where it comes near, and hardly else
 
 TEST_CASE("triangles_by_tile: behind a triangle that contains a tile there is nothing to be seen")
 {
-    const std::array<vec2, 3> whole{vec2(-1000, -1000), vec2(3000, -1000), vec2(-1000, 3000)};
+    const std::array<vec2, 3> whole{vec2(-1000, -1000), vec2(9000, -1000), vec2(-1000, 9000)};
     std::vector<std::array<vec2, 3>> places(5000, whole);
     places.front() = {vec2(3, 3), vec2(60, 3), vec2(3, 60)};
     const auto tiles = impl::triangles_by_tile(places, 16, 64, 64, 1.5);
