@@ -15,7 +15,7 @@ ROOMS = {
     "untangle": (50, "stages, proofs and the device"),
     "edit": (40, "regions, radial basis functions and paste"),
     "compute": (40, "the only room that sees OpenCL"),
-    "dist": (35, "MPI and PETSc, apart from all else"),
+    "dist": (55, "MPI and PETSc, apart from all else; files by ranges are to be a room"),
     "solve": (35, "methods and line searches"),
 }
 
@@ -23,9 +23,10 @@ ROOMS = {
 GATHER = {
     "impl/map/session/turned_draft.hpp": 14,
     "impl/atlas/flat_charts.hpp": 14,
-    "impl/atlas/make_atlas.ipp": 12,
+    "impl/atlas/make_atlas.ipp": 15,
     "impl/io/volume/read_volume.ipp": 11,
     "impl/objective/map_objective.hpp": 10,
+    "impl/dist/shape_body.hpp": 9,
     "impl/untangle/state.hpp": 9,
     "impl/untangle/coarse_stage.hpp": 9,
     "impl/map/parameterize_params.hpp": 9,
@@ -44,6 +45,9 @@ LONG = {
     "impl/atlas/segment.ipp try_pairs": "the same",
     "impl/atlas/segment.ipp unite_round": "the same",
     "impl/atlas/short_charts.hpp flatten_within_bound": "a search with six thresholds, to be cut with the atlas as values",
+    "impl/dist/file/medit_lines.hpp medit_lines": "one section of the file after another",
+    "impl/dist/file/su2_lines.hpp su2_lines": "the same",
+    "impl/dist/file/tetgen_lines.hpp tetgen_lines": "one file of the format after another",
     "impl/edit/detail/landing.hpp land": "attempts in turn, each with its own way out",
     "impl/edit/feature_map.ipp make_feature_map": "steps of one sampling",
     "impl/edit/pasted.hpp stitch": "steps of one numbering",
