@@ -266,7 +266,7 @@ protected:
     void keep_apart(std::vector<char>& bad)
     {
         constexpr idx most = 32;        // one by one: more would take long
-        constexpr int most_steps = 100; // more are taken by needles alone, whose charts are divided in any case
+        constexpr int most_steps = 100; // of a chart: needles would take thousands
         const double begin = budget_.total();
         idx mended = 0, tried = 0;
         for (std::size_t k = 0; k < bad.size(); ++k)
