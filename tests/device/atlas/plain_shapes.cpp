@@ -31,13 +31,17 @@ mesh<triangle> cube(unsigned cut)
     return {std::move(p), std::move(t)};
 }
 
-/// A closed prism of n sides, its ends cut as fans.
-mesh<triangle> prism(int n, double height)
+/// A closed prism of n sides, its ends cut as fans. radius: of corner k
+mesh<triangle> prism(
+    int n, double height, double (*radius)(int k) = [](int) { return 1.0; })
 {
     std::vector<vec3> p;
     for (const double z : {0.0, height})
         for (int k = 0; k < n; ++k)
-            p.emplace_back(std::cos(2 * std::numbers::pi * k / n), std::sin(2 * std::numbers::pi * k / n), z);
+        {
+            const double angle = 2 * std::numbers::pi * k / n;
+            p.emplace_back(radius(k) * std::cos(angle), radius(k) * std::sin(angle), z);
+        }
     std::vector<std::array<taut::idx, 3>> t;
     for (int k = 0; k < n; ++k)
     {
@@ -101,27 +105,7 @@ mesh<triangle> figure()
 /// A toothed wheel, its ends cut as fans: borders of its charts lie on each other.
 mesh<triangle> gear(int teeth)
 {
-    const int n = 4 * teeth;
-    std::vector<vec3> p;
-    for (const double z : {0.0, 0.5})
-        for (int k = 0; k < n; ++k)
-        {
-            const double r = k % 4 < 2 ? 1.5 : 1.1, angle = 2 * std::numbers::pi * k / n;
-            p.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
-        }
-    std::vector<std::array<taut::idx, 3>> t;
-    for (int k = 0; k < n; ++k)
-    {
-        const int next = (k + 1) % n;
-        t.push_back({k, next, n + next});
-        t.push_back({k, n + next, n + k});
-        if (k > 0 && k + 1 < n)
-        {
-            t.push_back({0, k + 1, k});
-            t.push_back({n, n + k, n + k + 1});
-        }
-    }
-    return {std::move(p), std::move(t)};
+    return prism(4 * teeth, 0.5, [](int k) { return k % 4 < 2 ? 1.5 : 1.1; });
 }
 
 void check_bound(queue& q, const mesh<triangle>& m, double bound, std::size_t most_charts = 6)
