@@ -6,17 +6,14 @@
 #include <taut/impl/compute/buffer.hpp>
 #include <taut/impl/compute/quirks.hpp>
 
+#include "support/contains.hpp"
 #include "support/device.hpp"
 
+using taut::test::contains;
 using taut::test::with_variable;
 
 namespace
 {
-
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
 
 std::string refusal_text(const taut::device_requirements& needs = {})
 {

@@ -5,7 +5,10 @@
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/quirks.hpp>
 
+#include "support/contains.hpp"
 #include "support/device.hpp"
+
+using taut::test::contains;
 
 namespace
 {
@@ -13,11 +16,6 @@ namespace
 const std::string axpy = "__kernel void axpy(const float a, __global const float* x, __global float* y)\n"
                          "{ const size_t i = get_global_id(0); y[i] += a * x[i]; }\n"
                          "__kernel void count(__global int* c) { c[get_global_id(0)] = get_local_size(0); }\n";
-
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
-}
 
 } // namespace
 

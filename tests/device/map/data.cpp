@@ -61,7 +61,7 @@ struct cloth
     }
 };
 
-mesh<triangle> hill()
+mesh<triangle> rough_hill()
 {
     return test::bumpy(test::sized(40, 14), 0.5, 3);
 }
@@ -97,7 +97,7 @@ std::vector<double> painted(const mesh<triangle>& m, double left, double right)
 
 TEST_CASE("data: where weights are painted high, the map is less distorted, with every solver")
 {
-    const auto m = hill();
+    const auto m = rough_hill();
     queue q;
     for (const auto method : {solve::method::automatic, solve::method::lbfgs})
     {
@@ -117,7 +117,7 @@ TEST_CASE("data: where weights are painted high, the map is less distorted, with
 
 TEST_CASE("data: an energy reads attributes of its triangle, on the device as on the host")
 {
-    const auto m = hill();
+    const auto m = rough_hill();
     queue q;
     const cell_data data{.attribute_count = 1, .attributes = painted(m, 0.1, 5)};
     const auto map = parameterize(q, m, {.energy = mixed{}, .data = data});
@@ -146,7 +146,7 @@ TEST_CASE("data: an energy reads attributes of its triangle, on the device as on
 
 TEST_CASE("data: another parameter takes no other kernel")
 {
-    const auto m = hill();
+    const auto m = rough_hill();
     queue q;
     const auto first = parameterize(q, m, {.energy = slid{}, .parameters = {0.5}});
     REQUIRE(first);
@@ -164,7 +164,7 @@ TEST_CASE("data: another parameter takes no other kernel")
 
 TEST_CASE("data: with directions an anisotropic energy does not depend on which corner comes first")
 {
-    const auto m = hill();
+    const auto m = rough_hill();
     auto cells = m.cells();
     std::mt19937 rng(2);
     for (auto& t : cells)
@@ -186,7 +186,7 @@ TEST_CASE("data: with directions an anisotropic energy does not depend on which 
 
 TEST_CASE("data: what does not fit is refused by name")
 {
-    const auto m = hill();
+    const auto m = rough_hill();
     queue q;
     const auto field = [&](const parameterize_params& p)
     {

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <support/at.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
 #include <taut/impl/atlas/cutting/lift_seams.hpp>
@@ -25,11 +26,6 @@ using namespace taut::impl;
 
 namespace
 {
-
-std::size_t u(idx i)
-{
-    return static_cast<std::size_t>(i);
-}
 
 /// A box of cubes blown up to a ball with limbs.
 mesh<triangle> limbs(int n)
@@ -61,7 +57,7 @@ void check_no_flips(const rest_surface& rest, const flat_surface& flat)
         const auto side = static_cast<idx>(corner);
         if (rest.twin(side) < 0 || flat.seam[corner]) continue;
         const idx a = rest_surface::start_corner(side), b = rest_surface::end_corner(rest.twin(side));
-        CHECK(flat.uv[u(a)] == flat.uv[u(b)]); // connected where there is no seam
+        CHECK(flat.uv[at(a)] == flat.uv[at(b)]); // connected where there is no seam
     }
 }
 
@@ -80,7 +76,7 @@ TEST_CASE("coarse surface: vertices of the fine one, the same topology, about as
         CHECK(euler(small) == euler(m));
         CHECK(facets(small).oriented());
         for (std::size_t v = 0; v < coarse.points.size(); ++v)
-            CHECK(coarse.points[v] == m.points()[u(coarse.origins[v])]);
+            CHECK(coarse.points[v] == m.points()[at(coarse.origins[v])]);
         const auto again = make_coarse(m, facets(m), 600);
         CHECK(again.cells == coarse.cells);
     }
@@ -100,7 +96,8 @@ TEST_CASE("coarse surface: small holes are spanned, large ones stay")
     CHECK(euler(mesh<triangle>(s.points, s.cells)) == 2);
     std::vector<std::array<idx, 3>> half;
     for (const auto& t : whole.cells())
-        if (whole.points()[u(t[0])].x + whole.points()[u(t[1])].x + whole.points()[u(t[2])].x < 1.5) half.push_back(t);
+        if (whole.points()[at(t[0])].x + whole.points()[at(t[1])].x + whole.points()[at(t[2])].x < 1.5)
+            half.push_back(t);
     coarse_surface open{whole.points(), half, {}};
     span_small_holes(open);
     CHECK(open.cells.size() == half.size());
@@ -132,7 +129,7 @@ TEST_CASE("zip: sews up one edge, costs what it says, and can be taken back")
     REQUIRE(euler(disk) == 1);
     const auto map = barycentric_map(disk, {.stretch_rounds = 1});
     flat.uv.resize(flat.fan.size());
-    for (std::size_t k = 0; k < flat.fan.size(); ++k) flat.uv[k] = map.uv[u(cut.cells[k / 3][k % 3])];
+    for (std::size_t k = 0; k < flat.fan.size(); ++k) flat.uv[k] = map.uv[at(cut.cells[k / 3][k % 3])];
     relax(rest, flat, 60, 1e-8);
     check_no_flips(rest, flat);
     CHECK(flat.energy == doctest::Approx(mean_energy(rest, flat.uv)));
@@ -148,7 +145,7 @@ TEST_CASE("zip: sews up one edge, costs what it says, and can be taken back")
         zips.apply(flat, z);
         check_no_flips(rest, flat);
         CHECK(flat.energy == doctest::Approx(mean_energy(rest, flat.uv)).epsilon(1e-9));
-        CHECK(seam_price(rest, flat.seam) == doctest::Approx(seam_price(rest, was.seam) - rest.length[u(z.side)]));
+        CHECK(seam_price(rest, flat.seam) == doctest::Approx(seam_price(rest, was.seam) - rest.length[at(z.side)]));
         flat_surface back = flat;
         zips.take_back(back, z, remembered);
         CHECK(back.seam == was.seam);
@@ -185,7 +182,7 @@ TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
     number_fans(rest, flat);
     for (std::size_t k = 0; k < flat.fan.size(); ++k)
     {
-        const vec3 p = points[u(rest.vertex(static_cast<idx>(k)))];
+        const vec3 p = points[at(rest.vertex(static_cast<idx>(k)))];
         flat.uv.push_back({p.x, p.y});
     }
     flat.energy = mean_energy(rest, flat.uv);
@@ -194,7 +191,7 @@ TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
     CHECK(found[0].area == doctest::Approx(rest.total / 3).epsilon(0.05));
     const auto cut = minimum_cut(rest, flat.seam, found[0].below, found[0].above);
     double length = 0;
-    for (const idx s : cut) length += rest.length[u(s)];
+    for (const idx s : cut) length += rest.length[at(s)];
     CHECK(length == doctest::Approx(1).epsilon(0.02)); // the width
     CHECK(part_charts(rest, flat, {}) == 1);
     CHECK(pieces_between(rest.facets, flat.seam).second == 2);
@@ -237,13 +234,13 @@ TEST_CASE("short cutting: seams lead back over the fine surface, given ones stay
     const auto m = limbs(24);
     const auto f = facets(m);
     std::vector<char> given(f.twin.size(), 0), together(f.twin.size(), 0);
-    given[3] = given[u(f.twin[3])] = 1;
+    given[3] = given[at(f.twin[3])] = 1;
     for (std::size_t s = 0; s < f.twin.size(); ++s)
     {
         const auto [a, b] = side_vertices(m, static_cast<idx>(s));
-        together[s] = glm::distance(m.points()[u(a)], m.points()[u(b)]) > 1.2 / 24; // diagonals of quads
+        together[s] = glm::distance(m.points()[at(a)], m.points()[at(b)]) > 1.2 / 24; // diagonals of quads
     }
-    given[3] = given[u(f.twin[3])] = !together[3];
+    given[3] = given[at(f.twin[3])] = !together[3];
     budget unlimited;
     short_cutting cutting(m, f, {.seams = given, .together = together, .coarse = 1000}, unlimited);
     cutting.run();
@@ -253,7 +250,7 @@ TEST_CASE("short cutting: seams lead back over the fine surface, given ones stay
     idx sides = 0;
     for (std::size_t s = 0; s < seam.size(); ++s)
     {
-        CHECK(seam[s] == seam[u(f.twin[s])]);
+        CHECK(seam[s] == seam[at(f.twin[s])]);
         CHECK((!given[s] || seam[s]));
         CHECK((!seam[s] || !together[s]));
         sides += seam[s];
@@ -277,7 +274,7 @@ TEST_CASE("strained cuts: a surface is flat when they lead to all of its vertice
     const mesh<triangle> disk(cut.points, cut.cells);
     const auto map = barycentric_map(disk, {.stretch_rounds = 1});
     flat.uv.resize(flat.fan.size());
-    for (std::size_t k = 0; k < flat.fan.size(); ++k) flat.uv[k] = map.uv[u(cut.cells[k / 3][k % 3])];
+    for (std::size_t k = 0; k < flat.fan.size(); ++k) flat.uv[k] = map.uv[at(cut.cells[k / 3][k % 3])];
     relax(rest, flat, 60, 1e-6);
     REQUIRE(flat.energy > 4.5);
     double before = flat.energy;
@@ -321,7 +318,7 @@ TEST_CASE("straightening: corners of a coarse mesh stay on the seam")
     for (idx s = 0; s < 3 && std::count(seam.begin(), seam.end(), char(1)) == 0; ++s)
     {
         const double longest = std::max({rest.length[0], rest.length[1], rest.length[2]});
-        if (rest.length[u(s)] < longest) continue;
+        if (rest.length[at(s)] < longest) continue;
         for (const idx side : {rest_surface::next(s), rest_surface::last(s)}) set_seam(rest, seam, side, 1);
     }
     REQUIRE(std::count(seam.begin(), seam.end(), char(1)) == 4);

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include <support/at.hpp>
 #include <support/meshes.hpp>
 #include <taut/impl/atlas/symmetry.hpp>
 #include <taut/impl/atlas/symmetry/symmetric_half.hpp>
@@ -15,11 +16,6 @@ using namespace taut::impl;
 
 namespace
 {
-
-std::size_t u(idx i)
-{
-    return static_cast<std::size_t>(i);
-}
 
 /// A surface with x >= 0 and its mirror image, joined where x is 0.
 mesh<triangle> doubled(const mesh<triangle>& half)
@@ -32,7 +28,7 @@ mesh<triangle> doubled(const mesh<triangle>& half)
         image.push_back(points[v].x == 0 ? static_cast<idx>(v) : static_cast<idx>(points.size()));
         if (points[v].x != 0) points.push_back(points[v] * vec3(-1, 1, 1));
     }
-    for (const auto& [a, b, c] : half.cells()) cells.push_back({image[u(a)], image[u(c)], image[u(b)]});
+    for (const auto& [a, b, c] : half.cells()) cells.push_back({image[at(a)], image[at(c)], image[at(b)]});
     return {std::move(points), std::move(cells)};
 }
 
@@ -52,21 +48,21 @@ void check_images(const mesh<triangle>& m, const mirror_symmetry& s)
     {
         const vec3& p = m.points()[v];
         const vec3 image = p - 2 * (glm::dot(s.normal, p) - s.offset) * s.normal;
-        CHECK(glm::distance(image, m.points()[u(s.vertex[v])]) < 1e-3);
-        CHECK(s.vertex[u(s.vertex[v])] == static_cast<idx>(v));
+        CHECK(glm::distance(image, m.points()[at(s.vertex[v])]) < 1e-3);
+        CHECK(s.vertex[at(s.vertex[v])] == static_cast<idx>(v));
     }
     for (idx c = 0; c < m.cell_count(); ++c)
     {
-        CHECK(s.image[u(s.image[u(s.polygon[u(c)])])] == s.polygon[u(c)]);
+        CHECK(s.image[at(s.image[at(s.polygon[at(c)])])] == s.polygon[at(c)]);
         for (idx k = 0; k < 3; ++k)
         {
             const idx there = s.corner(m, c, k);
             REQUIRE(there >= 0);
-            CHECK(m.cells()[u(there) / 3][u(there) % 3] == s.vertex[u(m.cells()[u(c)][u(k)])]);
-            const idx side = s.side[u(3 * c + k)];
+            CHECK(m.cells()[at(there) / 3][at(there) % 3] == s.vertex[at(m.cells()[at(c)][at(k)])]);
+            const idx side = s.side[at(3 * c + k)];
             if (side < 0) continue;
             const auto [a, b] = side_vertices(m, 3 * c + k);
-            CHECK((side_vertices(m, side) == std::array{s.vertex[u(b)], s.vertex[u(a)]}));
+            CHECK((side_vertices(m, side) == std::array{s.vertex[at(b)], s.vertex[at(a)]}));
         }
     }
 }
@@ -151,7 +147,7 @@ TEST_CASE("symmetry: polygons and their images may be cut along any diagonals, a
     const auto s = find_symmetry(m, f, q.together);
     check_images(m, s);
     idx across = 0;
-    for (idx c = 0; c < m.cell_count(); ++c) across += s.image[u(s.polygon[u(c)])] == s.polygon[u(c)];
+    for (idx c = 0; c < m.cell_count(); ++c) across += s.image[at(s.polygon[at(c)])] == s.polygon[at(c)];
     CHECK(across == 2 * 4);
 
     const impl::symmetric_half half(m, f, s);
@@ -168,9 +164,9 @@ TEST_CASE("symmetry: polygons and their images may be cut along any diagonals, a
         [&](std::size_t corner, std::size_t own, bool mirrored)
         {
             corners.insert(corner);
-            const auto at = [](const mesh<triangle>& of, std::size_t k)
-            { return of.points()[u(of.cells()[k / 3][k % 3])]; };
-            const vec3 x = at(m, corner), y = at(half.surface(), own);
+            const auto corner_point = [](const mesh<triangle>& of, std::size_t k)
+            { return of.points()[at(of.cells()[k / 3][k % 3])]; };
+            const vec3 x = corner_point(m, corner), y = corner_point(half.surface(), own);
             CHECK(glm::distance(x, y * vec3(mirrored ? -1 : 1, 1, 1)) < 1e-12);
         });
     CHECK(corners.size() == 3 * m.cells().size());

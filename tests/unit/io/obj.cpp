@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include <support/contains.hpp>
 #include <support/meshes.hpp>
 #include <taut/impl/io/io_error.hpp>
 #include <taut/impl/io/obj.hpp>
@@ -15,6 +16,7 @@
 namespace
 {
 
+using taut::test::contains;
 using namespace taut;
 using io::impl::parse_obj;
 using taut::idx;
@@ -49,11 +51,6 @@ mesh_error mesh_error_of(const std::string& text)
     }
     FAIL("no mesh_error for: " << text);
     return mesh_error(mesh_fault::empty, {}, "");
-}
-
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
 }
 
 } // namespace

@@ -14,7 +14,7 @@ namespace
 using namespace taut;
 using io::impl::parse_ply;
 using taut::idx;
-using cell = std::array<taut::idx, 3>;
+using ply_cell = std::array<taut::idx, 3>;
 
 /// Bytes of a value in the wanted order.
 template <class T>
@@ -52,7 +52,7 @@ std::string binary_file(bool big)
     return s;
 }
 
-io::io_error io_error_of(const std::string& text)
+io::io_error ply_error_of(const std::string& text)
 {
     try
     {
@@ -75,7 +75,7 @@ TEST_CASE("ply: ascii")
     {
         const auto f = parse_ply(ascii_head + body);
         CHECK(f.surface.points()[2] == vec3(0, 1, 0.5));
-        CHECK(f.surface.cells() == std::vector<cell>{{0, 1, 2}});
+        CHECK(f.surface.cells() == std::vector<ply_cell>{{0, 1, 2}});
         CHECK(f.texcoords.empty());
     }
 }
@@ -86,7 +86,7 @@ TEST_CASE("ply: binary of either byte order, any types, with parts to skip")
     {
         const auto f = parse_ply(binary_file(big));
         CHECK(f.surface.points() == std::vector<vec3>{{0, 0, 0}, {0.1, 0.5, -300}, {0.2, 2, -600}});
-        CHECK(f.surface.cells() == std::vector<cell>{{2, 0, 1}});
+        CHECK(f.surface.cells() == std::vector<ply_cell>{{2, 0, 1}});
     }
 }
 
@@ -135,8 +135,8 @@ TEST_CASE("ply: texture coordinates of faces, whose seams show")
                     io::texcoord_error);
     // The second face has none.
     const auto part = parse_ply(head + "3 0 1 2 6 0 0 1 0 1 1\n3 0 2 3 0\n");
-    CHECK(part.texcoord_cells == std::vector<cell>{{0, 1, 2}, {-1, -1, -1}});
-    CHECK(io_error_of(head + "3 0 1 2 5 0 0 1 0 1\n3 0 2 3 0\n").place().has_value());
+    CHECK(part.texcoord_cells == std::vector<ply_cell>{{0, 1, 2}, {-1, -1, -1}});
+    CHECK(ply_error_of(head + "3 0 1 2 5 0 0 1 0 1\n3 0 2 3 0\n").place().has_value());
 }
 
 TEST_CASE("ply: polygons are split, with a note")
@@ -156,7 +156,7 @@ TEST_CASE("ply: an element that stands twice is refused, so that each vertex has
                              "property float s\nproperty float t\nelement face 1\n"
                              "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0 0.5 0.5\n"
                              "3 0 1 2\n";
-    CHECK(io_error_of(text).place()->number == 7);
+    CHECK(ply_error_of(text).place()->number == 7);
     CHECK_THROWS_WITH_AS(parse_ply(text), doctest::Contains("element vertex is declared twice"), taut::io::io_error);
 }
 
@@ -164,7 +164,7 @@ TEST_CASE("ply: malformed headers are refused with the line")
 {
     const auto line = [](const std::string& text)
     {
-        const auto e = io_error_of(text);
+        const auto e = ply_error_of(text);
         REQUIRE(e.place());
         CHECK(e.place()->counted_in == io::impl::file_place::line);
         return e.place()->number;
@@ -185,18 +185,18 @@ TEST_CASE("ply: malformed headers are refused with the line")
 
 TEST_CASE("ply: bodies that are too short or hold nonsense are refused")
 {
-    CHECK(io_error_of(ascii_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n").place()->number == 15);
-    CHECK(io_error_of(ascii_head + "0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n").place()->number == 12);
-    CHECK(io_error_of(ascii_head + "0 0 0\n1 0 0\n0 1 0\n2 0 1\n").place()->number == 14);
-    CHECK(io_error_of(ascii_head + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n").place()->number == 14);
-    CHECK(io_error_of(ascii_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n").place()->number == 14);
+    CHECK(ply_error_of(ascii_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n").place()->number == 15);
+    CHECK(ply_error_of(ascii_head + "0 0 0\n1 0 x\n0 1 0\n3 0 1 2\n").place()->number == 12);
+    CHECK(ply_error_of(ascii_head + "0 0 0\n1 0 0\n0 1 0\n2 0 1\n").place()->number == 14);
+    CHECK(ply_error_of(ascii_head + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n").place()->number == 14);
+    CHECK(ply_error_of(ascii_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n").place()->number == 14);
     for (const bool big : {false, true})
     {
         const std::string whole = binary_file(big);
         const std::size_t body = whole.find("end_header") + 11;
         for (std::size_t n = body; n < whole.size(); ++n)
         {
-            const auto e = io_error_of(whole.substr(0, n));
+            const auto e = ply_error_of(whole.substr(0, n));
             REQUIRE(e.place());
             CHECK(e.place()->counted_in == io::impl::file_place::byte);
             CHECK(e.place()->number >= body);
@@ -211,15 +211,15 @@ TEST_CASE("ply: counts that the file cannot hold are refused at once")
     for (const char* format : {"ascii", "binary_little_endian"})
     {
         const std::string head = "ply\nformat " + std::string(format) + " 1.0\n";
-        io_error_of(head + "element vertex 4000000000\n" + vertex + "end_header\n0 0 0\n");
-        io_error_of(head + "element vertex 9000000000000000000\n" + vertex + "end_header\n0 0 0\n");
-        io_error_of(head + "element junk 9000000000000000000\nproperty list uchar int a\nend_header\n0 0 0\n");
+        ply_error_of(head + "element vertex 4000000000\n" + vertex + "end_header\n0 0 0\n");
+        ply_error_of(head + "element vertex 9000000000000000000\n" + vertex + "end_header\n0 0 0\n");
+        ply_error_of(head + "element junk 9000000000000000000\nproperty list uchar int a\nend_header\n0 0 0\n");
         // Rows without properties take no bytes: skipped, not counted through.
         CHECK_THROWS_AS(parse_ply(head + "element junk 9000000000000000000\nend_header\n"), mesh_error);
     }
     const std::string list =
         "ply\nformat binary_little_endian 1.0\nelement junk 1\nproperty list uint uchar a\nend_header\n";
-    io_error_of(list + "\xff\xff\xff\xff\x01");
+    ply_error_of(list + "\xff\xff\xff\xff\x01");
 }
 
 TEST_CASE("ply: vertices that are missing or not finite are faults of the mesh, and so is no face")
@@ -249,7 +249,7 @@ TEST_CASE("ply: faces may stand before the vertices, and name only what follows"
                              "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
                       points = "0 0 0\n1 0 0\n0 1 0\n";
     const auto file = parse_ply(head + "3 0 1 2\n" + points);
-    CHECK(file.surface.cells() == std::vector<cell>{{0, 1, 2}});
+    CHECK(file.surface.cells() == std::vector<ply_cell>{{0, 1, 2}});
     CHECK(file.surface.points()[1] == vec3(1, 0, 0));
     CHECK_THROWS_WITH_AS(parse_ply(head + "3 0 1 3\n" + points),
                          doctest::Contains("names vertex 3, but there are 3, counted from 0"), mesh_error);
@@ -258,7 +258,7 @@ TEST_CASE("ply: faces may stand before the vertices, and name only what follows"
 
 TEST_CASE("ply: triangle strips, text and binary: -1 begins another one, a vertex named twice joins two")
 {
-    using cells = std::vector<cell>;
+    using cells = std::vector<ply_cell>;
     const cells expected{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {5, 6, 7}, {0, 1, 2}};
     const std::vector<int> strips[] = {{0, 1, 2, 3, 4, -1, 5, 6, 7, -1, -1, 3}, {1, 1, 0, 2}};
     for (const std::string_view format : {"ascii", "binary_little_endian", "binary_big_endian"})

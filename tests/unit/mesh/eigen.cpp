@@ -32,7 +32,7 @@ Cells square_cells()
     return F;
 }
 
-Eigen::MatrixXd square()
+Eigen::MatrixXd square_points()
 {
     Eigen::MatrixXd V(4, 2);
     V << 0, 0, 1, 0, 0, 1, 1, 1;
@@ -78,9 +78,9 @@ TEST_CASE("eigen: a matrix of points is their memory")
     mine.leftCols(2) = matrix_of(x).cast<float>();
     CHECK(mine(2, 0) == 10);
 
-    const auto m = mesh_from(square(), square_cells());
+    const auto m = mesh_from(square_points(), square_cells());
     CHECK(matrix_of(m.cells()) == square_cells());
-    CHECK(matrix_of(m.points()).leftCols(2) == square());
+    CHECK(matrix_of(m.points()).leftCols(2) == square_points());
 }
 
 TEST_CASE("eigen: blocks become a sparse matrix in either order of the unknowns")
@@ -118,7 +118,7 @@ TEST_CASE("eigen: blocks become a sparse matrix in either order of the unknowns"
 
 TEST_CASE("eigen: indices and positions make pins or springs")
 {
-    const auto m = mesh_from(square(), square_cells());
+    const auto m = mesh_from(square_points(), square_cells());
     const Eigen::Vector2i b(3, 0);
     Eigen::Matrix2d bc;
     bc << 0.1, 0.2, 0.3, 0.4;

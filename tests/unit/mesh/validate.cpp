@@ -5,12 +5,14 @@
 
 #include <doctest/doctest.h>
 
+#include <support/contains.hpp>
 #include <support/meshes.hpp>
 #include <taut/impl/mesh/validate.hpp>
 
 namespace
 {
 
+using taut::test::contains;
 using namespace taut;
 using taut::idx;
 
@@ -28,11 +30,6 @@ mesh_finding only_finding(const mesh<Element>& m)
     const auto found = check(m);
     REQUIRE(found.size() == 1);
     return found[0];
-}
-
-bool contains(const std::string& text, const std::string& part)
-{
-    return text.find(part) != std::string::npos;
 }
 
 using ids = std::vector<taut::idx>;

@@ -11,39 +11,40 @@ using vector = std::vector<double>;
 namespace
 {
 
-constexpr std::size_t n = 6;
+constexpr std::size_t dimension = 6;
 
 /// H_{k+1} = V'H V + rho s s' as a dense matrix: the paper's (20), (21), to the letter.
 class dense
 {
 public:
-    explicit dense(double gamma) : h_(n * n)
+    explicit dense(double gamma) : h_(dimension * dimension)
     {
-        for (std::size_t i = 0; i < n; ++i) h_[i * n + i] = gamma;
+        for (std::size_t i = 0; i < dimension; ++i) h_[i * dimension + i] = gamma;
     }
 
     void update(const vector& s, const vector& y)
     {
         double sy = 0;
-        for (std::size_t i = 0; i < n; ++i) sy += s[i] * y[i];
-        std::vector<double> v(n * n), out(n * n);
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = 0; j < n; ++j) v[i * n + j] = double(i == j) - y[i] * s[j] / sy;
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < dimension; ++i) sy += s[i] * y[i];
+        std::vector<double> v(dimension * dimension), out(dimension * dimension);
+        for (std::size_t i = 0; i < dimension; ++i)
+            for (std::size_t j = 0; j < dimension; ++j) v[i * dimension + j] = double(i == j) - y[i] * s[j] / sy;
+        for (std::size_t i = 0; i < dimension; ++i)
+            for (std::size_t j = 0; j < dimension; ++j)
             {
-                out[i * n + j] = s[i] * s[j] / sy;
-                for (std::size_t k = 0; k < n; ++k)
-                    for (std::size_t l = 0; l < n; ++l) out[i * n + j] += v[k * n + i] * h_[k * n + l] * v[l * n + j];
+                out[i * dimension + j] = s[i] * s[j] / sy;
+                for (std::size_t k = 0; k < dimension; ++k)
+                    for (std::size_t l = 0; l < dimension; ++l)
+                        out[i * dimension + j] += v[k * dimension + i] * h_[k * dimension + l] * v[l * dimension + j];
             }
         h_ = out;
     }
 
     vector operator*(const vector& g) const
     {
-        vector out(n);
-        for (std::size_t i = 0; i < n; ++i)
-            for (std::size_t j = 0; j < n; ++j) out[i] += h_[i * n + j] * g[j];
+        vector out(dimension);
+        for (std::size_t i = 0; i < dimension; ++i)
+            for (std::size_t j = 0; j < dimension; ++j) out[i] += h_[i * dimension + j] * g[j];
         return out;
     }
 
@@ -52,46 +53,46 @@ private:
 };
 
 /// Steps and gradients of a made-up run on a convex quadratic, so that s'y > 0.
-struct run
+struct sampled_run
 {
-    std::vector<vector> g{functions::noise(n, 7)};
+    std::vector<vector> g{functions::noise(dimension, 7)};
     std::vector<vector> d;
     std::vector<double> a{0.5, 2, 0.1, 1, 3, 0.7, 1};
 
-    run()
+    sampled_run()
     {
         for (std::size_t k = 0; k < a.size(); ++k)
         {
-            d.push_back(functions::noise(n, unsigned(100 + k)));
+            d.push_back(functions::noise(dimension, unsigned(100 + k)));
             g.push_back(g[k]);
-            for (std::size_t i = 0; i < n; ++i) g[k + 1][i] += a[k] * double(i + 1) * d[k][i];
+            for (std::size_t i = 0; i < dimension; ++i) g[k + 1][i] += a[k] * double(i + 1) * d[k][i];
         }
     }
 
     vector s(std::size_t k) const
     {
-        vector out(n);
-        for (std::size_t i = 0; i < n; ++i) out[i] = a[k] * d[k][i];
+        vector out(dimension);
+        for (std::size_t i = 0; i < dimension; ++i) out[i] = a[k] * d[k][i];
         return out;
     }
 
     vector y(std::size_t k) const
     {
-        vector out(n);
-        for (std::size_t i = 0; i < n; ++i) out[i] = g[k + 1][i] - g[k][i];
+        vector out(dimension);
+        for (std::size_t i = 0; i < dimension; ++i) out[i] = g[k + 1][i] - g[k][i];
         return out;
     }
 };
 
-double ratio(const run& r, std::size_t k)
+double ratio(const sampled_run& r, std::size_t k)
 {
-    const host_space space(n);
+    const host_space space(dimension);
     return space.dot(r.s(k), r.y(k)) / space.dot(r.y(k), r.y(k));
 }
 
 void check_equal(const vector& a, const vector& b, double tolerance)
 {
-    const host_space space(n);
+    const host_space space(dimension);
     vector difference = a;
     space.axpby(-1, b, 1, difference);
     CHECK(std::sqrt(space.dot(difference, difference)) <= tolerance * std::sqrt(space.dot(b, b)));
@@ -102,15 +103,15 @@ void check_equal(const vector& a, const vector& b, double tolerance)
 TEST_CASE_TEMPLATE("inverse hessian: equals the dense formula after every update", Form,
                    gram_inverse_hessian<const host_space>, two_loop_inverse_hessian<const host_space>)
 {
-    const host_space space(n);
-    const run r;
+    const host_space space(dimension);
+    const sampled_run r;
     for (const int m : {0, 1, 3, 20})
         for (const auto scale : {scaling::newest, scaling::largest})
         {
             Form h(space, {.pairs = m, .scaling = scale});
             h.start(r.g[0]);
             h.forget(2);
-            vector d(n);
+            vector d(dimension);
             h.multiply(r.g[0]);
             const auto steepest = h.direction(0, d);
             CHECK(steepest.length == doctest::Approx(2)); // the length that was asked for
@@ -148,9 +149,9 @@ TEST_CASE_TEMPLATE("inverse hessian: equals the dense formula after every update
 TEST_CASE_TEMPLATE("inverse hessian: a rejected trial leaves no trace", Form, gram_inverse_hessian<const host_space>,
                    two_loop_inverse_hessian<const host_space>)
 {
-    const host_space space(n);
-    const run r;
-    vector with(n), without(n);
+    const host_space space(dimension);
+    const sampled_run r;
+    vector with(dimension), without(dimension);
     for (const bool trial : {false, true})
     {
         Form h(space, {.pairs = 2});
@@ -170,15 +171,15 @@ TEST_CASE_TEMPLATE("inverse hessian: a rejected trial leaves no trace", Form, gr
 TEST_CASE_TEMPLATE("inverse hessian: a pair without positive curvature is left out", Form,
                    gram_inverse_hessian<const host_space>, two_loop_inverse_hessian<const host_space>)
 {
-    const host_space space(n);
-    const run r;
+    const host_space space(dimension);
+    const sampled_run r;
     Form h(space, {.pairs = 3});
     h.start(r.g[0]);
     h.propose(r.a[0], r.d[0], r.g[0], r.g[1]);
     REQUIRE(h.accept());
 
     vector concave = r.g[1]; // y = -s
-    for (std::size_t i = 0; i < n; ++i) concave[i] -= r.d[1][i];
+    for (std::size_t i = 0; i < dimension; ++i) concave[i] -= r.d[1][i];
     h.propose(1, r.d[1], r.g[1], concave);
     CHECK_FALSE(h.accept());
     CHECK(h.skipped());
@@ -186,7 +187,7 @@ TEST_CASE_TEMPLATE("inverse hessian: a pair without positive curvature is left o
 
     dense reference(ratio(r, 0));
     reference.update(r.s(0), r.y(0));
-    vector d(n), expected = reference * concave;
+    vector d(dimension), expected = reference * concave;
     h.multiply(concave);
     CHECK(h.direction(0, d).slope < 0);
     space.axpby(-1, d, 0, d);
@@ -196,11 +197,12 @@ TEST_CASE_TEMPLATE("inverse hessian: a pair without positive curvature is left o
 TEST_CASE_TEMPLATE("inverse hessian: with a preconditioner H0 is gamma times it", Form,
                    gram_inverse_hessian<const host_space>, two_loop_inverse_hessian<const host_space>)
 {
-    const host_space space(n);
-    const run r;
+    const host_space space(dimension);
+    const sampled_run r;
     const auto h0 = [](const vector& v, vector& out)
     {
-        for (std::size_t i = 0; i < n; ++i) out[i] = 5 * v[i] / double(i + 1); // the exact inverse Hessian, times 5
+        for (std::size_t i = 0; i < dimension; ++i)
+            out[i] = 5 * v[i] / double(i + 1); // the exact inverse Hessian, times 5
     };
     Form h(space, {.pairs = 4}, h0);
     h.start(r.g[0]);
@@ -209,9 +211,10 @@ TEST_CASE_TEMPLATE("inverse hessian: with a preconditioner H0 is gamma times it"
         h.propose(r.a[k], r.d[k], r.g[k], r.g[k + 1]);
         REQUIRE(h.accept());
         h.multiply(r.g[k + 1]);
-        vector d(n), expected(n);
+        vector d(dimension), expected(dimension);
         const auto info = h.direction(0, d);
-        for (std::size_t i = 0; i < n; ++i) expected[i] = -r.g[k + 1][i] / double(i + 1); // gamma takes the 5 away
+        for (std::size_t i = 0; i < dimension; ++i)
+            expected[i] = -r.g[k + 1][i] / double(i + 1); // gamma takes the 5 away
         check_equal(d, expected, 1e-11);
         CHECK(info.slope == doctest::Approx(space.dot(r.g[k + 1], expected)));
     }

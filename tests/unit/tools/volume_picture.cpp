@@ -12,7 +12,7 @@ using io::volume_picture;
 namespace
 {
 
-const io::volume_style small{.width = 440, .height = 304, .samples = 2};
+const io::volume_style small_volume{.width = 440, .height = 304, .samples = 2};
 
 /// A square that faces the viewer of the front (-y), and one that is behind it.
 io::volume_view squares(double distortion)
@@ -38,7 +38,7 @@ int count_pixels(const image& picture, int from, int to, bool (*holds)(io::rgb))
 
 TEST_CASE("volume picture: views side by side, narrow ones in less room, with a legend")
 {
-    const auto one = volume_picture({squares(1)}, small), two = volume_picture({squares(1), squares(8)}, small);
+    const auto one = volume_picture({squares(1)}, small_volume), two = volume_picture({squares(1), squares(8)}, small);
     CHECK(one.height() == 304);
     CHECK(two.width() > one.width());
     CHECK(two.width() < 2 * one.width());
@@ -50,7 +50,7 @@ TEST_CASE("volume picture: views side by side, narrow ones in less room, with a 
 
 TEST_CASE("volume picture: what is behind is hidden, inverted cells are magenta")
 {
-    auto style = small;
+    auto style = small_volume;
     style.turn = style.rise = 0;
     auto view = squares(1);
     const int width = volume_picture({view}, style).width() - static_cast<int>(186 * 0.4);
@@ -61,10 +61,10 @@ TEST_CASE("volume picture: what is behind is hidden, inverted cells are magenta"
 
 TEST_CASE("volume picture: nothing to draw, flat and unknown things are no errors")
 {
-    CHECK(volume_picture({io::volume_view{}}, small).height() == 304);
+    CHECK(volume_picture({io::volume_view{}}, small_volume).height() == 304);
     auto view = squares(std::numeric_limits<double>::quiet_NaN());
     for (vec3& p : view.points) p = vec3(1);
-    CHECK(volume_picture({view, view}, small).height() == 304);
+    CHECK(volume_picture({view, view}, small_volume).height() == 304);
 }
 
 } // namespace
