@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: MIT
+# Kernel caches of tests. PoCL's is not safe between processes, and half of the kernels are those of several tests: a test has
+# a cache of its own, or takes turns with its group, filled with what the device tests have compiled (support/kernels.sh).
+set(taut_kernels ${CMAKE_CURRENT_LIST_DIR}/support/kernels.sh)
+
+# A test with a cache of its own.
+function(taut_own_kernel_cache test)
+    string(MAKE_C_IDENTIFIER ${test} folder)
+    file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/pocl/${folder})
+    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "POCL_CACHE_DIR=${CMAKE_BINARY_DIR}/pocl/${folder}")
+endfunction()
+
+# taut_group_kernel_cache(<group> <test>...): tests that take turns with one cache.
+function(taut_group_kernel_cache group)
+    set(cache ${CMAKE_BINARY_DIR}/pocl/${group})
+    file(MAKE_DIRECTORY ${cache})
+    get_property(known GLOBAL PROPERTY taut_kernels_${group})
+    if(NOT known)
+        set_property(GLOBAL PROPERTY taut_kernels_${group} TRUE)
+        add_test(NAME kernels.${group} COMMAND sh ${taut_kernels} ${cache})
+        set_tests_properties(kernels.${group} PROPERTIES LABELS kernels FIXTURES_SETUP kernels_${group}
+            RESOURCE_LOCK kernels_${group} DEPENDS "device.edit;device.map;device.objective;device.start;device.untangle")
+    endif()
+    foreach(test ${ARGN})
+        set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "POCL_CACHE_DIR=${cache}")
+        set_property(TEST ${test} APPEND PROPERTY RESOURCE_LOCK kernels_${group})
+        set_property(TEST ${test} APPEND PROPERTY FIXTURES_REQUIRED kernels_${group})
+    endforeach()
+endfunction()
