@@ -90,7 +90,7 @@ private:
     {
         const mat<D> S = mapped(x, c);
         const double weight = shapes[c].weight;
-        const auto f = energy::regularized<D>{eps, area_weight}.first_derivatives(norm2(S), glm::determinant(S));
+        const auto f = energy::impl::regularized<D>{eps, area_weight}.first_derivatives(norm2(S), glm::determinant(S));
         values_[c] = weight * f.value;
         const auto g = corner_gradient<D>(weight * gradient_by_shape(S, f.by_I, f.by_d), shapes[c].inverse);
         for (std::size_t k = 0; k < g.size(); ++k) forces_[c * g.size() + k] = g[k];

@@ -144,7 +144,7 @@ private:
     {
         try
         {
-            validate(m, facets(m), atlas_requirements);
+            validate(m, impl::facets(m), impl::atlas_requirements);
         }
         catch (const mesh_error& e)
         {
@@ -156,7 +156,7 @@ private:
     {
         const auto& m = joined_->surface;
         auto params = to_params(options_);
-        const auto f = facets(m);
+        const auto f = impl::facets(m);
         const auto seams = seams_of(sources_, *joined_, f, options_);
         params.charts.seams = seams;
         const auto weights = seam_weights_of(sources_, *joined_, f, options_);

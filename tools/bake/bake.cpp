@@ -187,7 +187,7 @@ private:
             throw unsuitable_input(name + ": normals have three channels; give --content data");
         if (normals) make_frames(from, to);
         const auto& of_corners = old_.has_normals ? old_.normals : new_.normals;
-        const auto one = [&](const corner_uv& other, const bake_frames& frames)
+        const auto one = [&](const corner_uv& other, const impl::bake_frames& frames)
         {
             return [this, normals, frames, other = &other](const texture& image, const corner_uv& own,
                                                            const bake_params& how) {
@@ -407,7 +407,7 @@ private:
     const char* place_of_report_;
     textured_surface old_, new_;
     std::optional<queue> queue_;
-    std::vector<corner_tangents> old_tangents_, new_tangents_;
+    std::vector<impl::corner_tangents> old_tangents_, new_tangents_;
     std::map<idx, texture> differences_; // of the last texture, by tile
     bake_report report_;
 };

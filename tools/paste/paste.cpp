@@ -341,8 +341,8 @@ private:
     std::optional<io::surface_file> source_, target_;
     std::vector<idx> region_; ///< vertices of the source that the feature has
     std::optional<paste> paste_;
-    std::optional<feature_map> map_;
-    seam_quality quality_;
+    std::optional<impl::feature_map> map_;
+    impl::seam_quality quality_;
     std::vector<std::array<idx, 2>> meeting_; ///< triangles of the result, which did not in what it is made of
     std::string device_;
     double distance_ = 0; ///< of the tessellation from the feature, in units of the source

@@ -56,7 +56,7 @@ exit_code run(const untangle_options& options, const outputs& files, std::chrono
     std::optional<decltype(io::impl::read_any_prob({}))> file;
     report.seconds.read = clock.timed([&] { file = io::impl::read_any_prob(options.input); });
     return std::visit(
-        [&]<class Element>(io::prob_file<Element>& read)
+        [&]<class Element>(io::impl::prob_file<Element>& read)
         {
             auto problem = make_untangle_problem(std::move(read));
             const auto as_file = file_of(problem);

@@ -113,7 +113,7 @@ private:
     bool prove_infeasible()
     {
         tell("check");
-        infeasibility found;
+        impl::infeasibility found;
         report_.seconds.check = clock_.timed([&] { found = find_infeasibility(*problem_); });
         for (const auto& warning : found.warnings) report_.notes.push_back(warning.message);
         if (!found) return false;

@@ -151,7 +151,8 @@ private:
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
-        const auto polygons = find_convex_polygons(surface().cells(), file_->faces.of_triangles(), surface().points());
+        const auto polygons =
+            impl::find_convex_polygons(surface().cells(), file_->faces.of_triangles(), surface().points());
         make_convex(polygons);
         tell("measure");
         report_.seconds.quality = clock_.timed([&] { report_.assess(options_, params, surface(), uv_); });
@@ -166,9 +167,9 @@ private:
 
     /// Moves vertices that are free so that polygons which are convex in space are so in the map, as far as that goes:
     /// whoever reads the file may cut them into other triangles.
-    void make_convex(const convex_polygons& polygons)
+    void make_convex(const impl::convex_polygons& polygons)
     {
-        if (find_concave(polygons, uv_).empty()) return;
+        if (impl::find_concave(polygons, uv_).empty()) return;
         std::vector<char> held(uv_.size(), 0);
         for (const auto& [v, pin] : pins_.pins()) held[static_cast<std::size_t>(v)] = 1;
         if (options_.boundary != boundary_kind::free)
@@ -176,7 +177,7 @@ private:
                 for (const idx v : loop) held[static_cast<std::size_t>(v)] = 1;
         impl::settle_piece(surface().cells(), polygons.corners, 0, surface().vertex_count(), uv_,
                            {.held = held, .apart = false});
-        if (const auto left = find_concave(polygons, uv_); !left.empty())
+        if (const auto left = impl::find_concave(polygons, uv_); !left.empty())
             report_.notes.push_back(count(left.size(), "polygon is", "polygons are") +
                                     " not convex in the map, though in space; cut along other diagonals, triangles of "
                                     "them turn over");

@@ -118,7 +118,7 @@ private:
         const auto& file = input_->file();
         kept_facets_ = io::impl::kept_facets(file, options_.boundary == smooth_boundary::sliding);
         std::vector<char> outside(file.points.size(), 0), inside = outside;
-        for (const auto& facet : boundary_facets(input_->simplices(), input_->owners()))
+        for (const auto& facet : impl::boundary_facets(input_->simplices(), input_->owners()))
             for (const idx v : facet) outside[static_cast<std::size_t>(v)] = 1;
         for (const auto& facet : kept_facets_)
             for (const idx v : facet.corners()) inside[static_cast<std::size_t>(v)] = 1;

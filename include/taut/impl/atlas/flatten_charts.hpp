@@ -82,11 +82,6 @@ struct flatten_seconds
     double certify = 0;
 };
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Result of flatten_charts(): one map for all charts, and a report for each.
 struct flattened_charts
 {
@@ -96,6 +91,11 @@ struct flattened_charts
     queue_counters counters; ///< launches, host waits and bytes
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Maps every chart to the plane with a free boundary and the least isometric distortion (energy::isometric by area),
 /// without flipping a triangle: all charts at once on the device. Each has its own steps, line search and stopping
 /// test, and the number of launches does not depend on the number of charts. Charts lie anywhere in the plane and may
@@ -104,7 +104,7 @@ struct flattened_charts
 /// A chart is a disk or has holes; closed charts, those with handles and those with a flat triangle have no map. Its
 /// map does not depend on other charts. Every map that is returned as valid is certified in exact arithmetic.
 /// Throws parameter_error, device_error, build_error.
-flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params = {});
+impl::flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params = {});
 
 } // namespace taut
 

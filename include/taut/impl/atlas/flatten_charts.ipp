@@ -292,13 +292,13 @@ private:
 namespace taut
 {
 
-flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params)
+impl::flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params)
 {
     params.validate();
     if (!params.initial.empty() && params.initial.size() != charts.surface.points().size())
         throw parameter_error("initial", "must have one point a vertex of the chart mesh, or none");
-    const queue_counters before = q.counters();
-    flattened_charts result = impl::flattening(q, charts, params).run();
+    const impl::queue_counters before = q.counters();
+    impl::flattened_charts result = impl::flattening(q, charts, params).run();
     result.counters = impl::counted_since(before, q.counters());
     return result;
 }

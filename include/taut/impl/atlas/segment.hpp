@@ -177,7 +177,7 @@ namespace taut
 ///    with their maps.
 /// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).
 template <class Flatten>
-segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& flatten,
+segmentation segment(const mesh<triangle>& m, const impl::facet_table& f, Flatten&& flatten,
                      const segment_params& params = {})
 {
     return impl::cut_apart(m, f, impl::segment_surface(m, f, impl::maps_by(flatten), params), params);

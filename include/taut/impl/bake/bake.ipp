@@ -238,7 +238,7 @@ baked_texture bake_corners(queue& q, std::span<const float> values, idx channels
     return impl::bake_any(q, {.values = values, .channels = channels}, to, params);
 }
 
-baked_texture bake_normals(queue& q, const texture& old, const bake_frames& frames,
+baked_texture bake_normals(queue& q, const texture& old, const impl::bake_frames& frames,
                            std::span<const std::array<vec2, 3>> from, std::span<const std::array<vec2, 3>> to,
                            const bake_params& params)
 {

@@ -85,7 +85,7 @@ public:
     impl::typed_kernel<Args...> kernel(const std::string& source, const std::string& name,
                                        const std::string& options = {});
 
-    queue_counters counters() const;
+    impl::queue_counters counters() const;
 
     /// Bytes in the living buffers of this queue.
     std::uint64_t allocated() const noexcept;

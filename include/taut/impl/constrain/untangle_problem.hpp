@@ -44,7 +44,7 @@ struct untangle_problem
     /// True if no vertex of the boundary can move.
     bool outline_pinned() const
     {
-        const auto outline = boundary_facets(rest, owners);
+        const auto outline = impl::boundary_facets(rest, owners);
         return std::all_of(outline.begin(), outline.end(),
                            [this](const auto& facet) {
                                return std::all_of(facet.begin(), facet.end(),

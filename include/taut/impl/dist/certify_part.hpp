@@ -102,7 +102,7 @@ certificate pinned_inverted(const part<Element>& p, const held_part<Element>& he
                 std::array<vec<D>, part<Element>::K> corners;
                 for (std::size_t k = 0; k < corners.size(); ++k)
                     for (int i = 0; i < D; ++i) corners[k][i] = x[static_cast<std::size_t>(D * cell[k] + i)];
-                if (std::apply([](const auto&... at) { return orient(at...).sign; }, corners) <= 0)
+                if (std::apply([](const auto&... at) { return taut::impl::orient(at...).sign; }, corners) <= 0)
                     ids.push_back(p.cell_ids[c]);
             }
         });

@@ -216,7 +216,7 @@ private:
                 points.push_back(p);
                 images.push_back(q);
             }
-        return fit_rigid_motion(std::span<const point>(points), std::span<const point>(images));
+        return taut::impl::fit_rigid_motion(std::span<const point>(points), std::span<const point>(images));
     }
 
     const part<Element>& part_;

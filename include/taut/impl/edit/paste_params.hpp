@@ -43,7 +43,7 @@ struct paste_params
     double reach = 1.8;
 
     /// Basis of the fields that bend target and feature. `linear` overshoots least.
-    rbf_basis basis = rbf_basis::linear;
+    impl::rbf_basis basis = impl::rbf_basis::linear;
 
     /// Limits of the map of the feature to the target, for the first soft pose: a rim that is hard to fit takes an
     /// untangling, which may not end.

@@ -100,7 +100,7 @@ public:
     /// target or in the feature; exact (see taut::self_intersections).
     std::vector<std::array<idx, 2>> self_intersections() const
     {
-        auto pairs = taut::self_intersections(surface());
+        auto pairs = taut::impl::self_intersections(surface());
         std::erase_if(pairs,
                       [&](const std::array<idx, 2>& pair)
                       {

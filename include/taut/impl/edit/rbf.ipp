@@ -10,7 +10,7 @@
 namespace taut
 {
 
-rbf::rbf(std::span<const vec3> points, const rbf_params& params)
+impl::rbf::rbf(std::span<const vec3> points, const impl::rbf_params& params)
     : system_(std::make_shared<const impl::rbf_system>(points, params))
 {
 }

@@ -92,7 +92,7 @@ inline std::vector<map_cell> split_cells(queue& q, const feature_map& map, std::
 namespace taut
 {
 
-feature tessellate(queue& q, const feature& part, const feature_map& map, std::span<const vec2> uv, idx triangles)
+feature tessellate(queue& q, const feature& part, const impl::feature_map& map, std::span<const vec2> uv, idx triangles)
 {
     if (triangles < 1) throw parameter_error("triangles", "must be positive");
     const auto& rim = part.region.rim;

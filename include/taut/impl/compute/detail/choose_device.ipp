@@ -35,10 +35,10 @@ std::string device_refusal(const device& d, const device_requirements& needs)
 namespace taut
 {
 
-std::vector<listed_device> devices(const device_requirements& needs)
+std::vector<impl::listed_device> devices(const device_requirements& needs)
 {
     impl::refuse_fork("listing devices");
-    std::vector<listed_device> all;
+    std::vector<impl::listed_device> all;
     for (const auto& platform : boost::compute::system::platforms())
     {
         std::vector<boost::compute::device> found;

@@ -94,9 +94,9 @@ void queue::finish()
     state_->run("finishing the queue", [&] { state_->commands.finish(); });
 }
 
-queue_counters queue::counters() const
+impl::queue_counters queue::counters() const
 {
-    queue_counters now = state_->counters;
+    impl::queue_counters now = state_->counters;
     now.builds = state_->cache.builds();
     now.build_seconds = state_->cache.seconds();
     return now;

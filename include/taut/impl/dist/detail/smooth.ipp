@@ -37,7 +37,7 @@ kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& 
     kept.slides.assign(p.size(), mat<D>(1.0));
     if (p.corners.empty() || params.boundary == smooth_boundary::free) return kept;
     const mesh<Element> m(p.points, p.corners);
-    auto facets = boundary_facets(m);
+    auto facets = taut::impl::boundary_facets(m);
     std::erase_if(facets,
                   [&](const auto& f) { return std::none_of(f.begin(), f.end(), [&](idx v) { return p.owns(v); }); });
     if (params.boundary == smooth_boundary::fixed)

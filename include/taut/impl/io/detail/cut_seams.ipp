@@ -19,7 +19,7 @@ namespace taut::io::impl
 inline taut::impl::disjoint_sets joined_corners(const surface_file& file)
 {
     const auto& cells = file.surface.cells();
-    const auto sides = facets(file.surface);
+    const auto sides = taut::impl::facets(file.surface);
     taut::impl::disjoint_sets joined(3 * file.surface.cell_count());
     const auto ends = [](idx side)
     {

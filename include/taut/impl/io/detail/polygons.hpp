@@ -211,7 +211,7 @@ private:
     {
         constexpr double thin = 1e-8; // of what would be left, or is cut off
         const vec2 a = x_[before_[i]], b = x_[i], c = x_[after_[i]];
-        const auto whole = orient(a, b, c);
+        const auto whole = taut::impl::orient(a, b, c);
         if (whole.sign <= 0) return none;
         const vec2 low = glm::min(a, glm::min(b, c)), high = glm::max(a, glm::max(b, c));
         const double diagonal = glm::dot(c - a, c - a);
@@ -225,7 +225,7 @@ private:
                 stamp_[k] == gone || k == before_[i] || k == i || k == after_[i])
                 continue;
             const int ab = taut::impl::orient2d(a, b, x), bc = taut::impl::orient2d(b, c, x);
-            const auto ca = orient(c, a, x);
+            const auto ca = taut::impl::orient(c, a, x);
             if (ab > 0 && bc > 0 && ca.sign > 0) return none;
             if (ab >= 0 && bc >= 0 && ca.sign >= 0 &&
                 (enters({a, b, c}, x, x_[before_[k]]) || enters({a, b, c}, x, x_[after_[k]])))

@@ -208,7 +208,7 @@ private:
     {
         live_map<tetrahedron> live(queue_, p.rest, deform_params<tetrahedron>{}, arithmetic_, found.x);
         live.constrain(p.held, {}, {});
-        const solve::stopping_params enough{
+        const solve::impl::stopping_params enough{
             .gradient_tolerance = gradient, .max_iterations = steps, .time_limit = clock_.left()};
         found.steps += live.minimize({.stopping = enough}, how_.limits.observer).iterations;
         found.x = live.coordinates();
