@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <taut/impl/io/cut_seams.hpp>
-#include <taut/impl/io/detail/obj_output.hpp>
 #include <taut/impl/io/obj.hpp>
+#include <taut/impl/io/surface/obj_output.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 #include <taut/impl/mesh/order.hpp>
 #include <taut/impl/mesh/validate.hpp>

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/io/detail/obj_output.hpp>
+#include <taut/impl/io/surface/obj_output.hpp>
 #include <taut/impl/mesh/ideal.hpp>
 
 #include "shared/assessment.hpp"

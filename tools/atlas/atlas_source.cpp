@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include <taut/impl/core/disjoint_sets.hpp>
-#include <taut/impl/io/detail/obj_statements.hpp>
+#include <taut/impl/io/surface/obj_statements.hpp>
 #include <taut/impl/io/write_obj.hpp>
 #include <taut/impl/mesh/describe.hpp>
 

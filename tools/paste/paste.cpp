@@ -20,8 +20,8 @@
 #include <nlohmann/json.hpp>
 
 #include <picture/render_picture.hpp>
-#include <taut/impl/edit/detail/surface_tree.hpp>
 #include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/surface/surface_tree.hpp>
 #include <taut/impl/edit/tessellate.hpp>
 #include <taut/impl/edit/write_feature_map.hpp>
 #include <taut/impl/edit/write_paste.hpp>

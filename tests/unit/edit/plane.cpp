@@ -11,9 +11,9 @@
 
 #include <support/meshes.hpp>
 #include <support/rbf_points.hpp>
-#include <taut/impl/edit/detail/plane_triangulation.hpp>
-#include <taut/impl/edit/detail/polygon_filling.hpp>
-#include <taut/impl/edit/detail/surface_tree.hpp>
+#include <taut/impl/edit/surface/plane_triangulation.hpp>
+#include <taut/impl/edit/surface/polygon_filling.hpp>
+#include <taut/impl/edit/surface/surface_tree.hpp>
 
 using namespace taut;
 

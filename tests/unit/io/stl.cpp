@@ -9,9 +9,9 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/detail/surface_formats.hpp>
 #include <taut/impl/io/read_surface.hpp>
 #include <taut/impl/io/stl.hpp>
+#include <taut/impl/io/surface/surface_formats.hpp>
 #include <taut/impl/mesh/validate.hpp>
 
 namespace

@@ -15,9 +15,9 @@
 #include <taut/impl/bake/fill_gutters.hpp>
 #include <taut/impl/bake/triangle_tiles.hpp>
 #include <taut/impl/compute/buffer.hpp>
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/kernels/bake.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 
 namespace taut::impl
 {

@@ -54,5 +54,5 @@ device choose_device(const device_requirements& needs = {});
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/compute/detail/choose_device.ipp>
+#include <taut/impl/compute/choose_device.ipp>
 #endif

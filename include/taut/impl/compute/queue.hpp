@@ -9,7 +9,7 @@
 #include <utility>
 
 #include <taut/impl/compute/choose_device.hpp>
-#include <taut/impl/compute/detail/program_builder.hpp>
+#include <taut/impl/compute/program/program_builder.hpp>
 #include <taut/impl/compute/queue_counters.hpp>
 
 namespace taut::impl
@@ -106,5 +106,5 @@ private:
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/compute/detail/queue.ipp>
+#include <taut/impl/compute/queue.ipp>
 #endif

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/detail/split_chords.hpp>
+#include <taut/impl/edit/surface/split_chords.hpp>
 
 namespace taut
 {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <taut/impl/compute/buffer.hpp>
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/kernels/feature_map.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 #include <taut/impl/core/csr.hpp>
 #include <taut/impl/edit/feature_map.hpp>
 

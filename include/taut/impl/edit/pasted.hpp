@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/detail/bending.hpp>
-#include <taut/impl/edit/detail/choose_place.hpp>
-#include <taut/impl/edit/detail/laid_feature.hpp>
+#include <taut/impl/edit/attach/bending.hpp>
+#include <taut/impl/edit/attach/choose_place.hpp>
+#include <taut/impl/edit/attach/laid_feature.hpp>
 #include <taut/impl/edit/paste_params.hpp>
 #include <taut/impl/edit/paste_report.hpp>
 #include <taut/impl/edit/rbf_error.hpp>

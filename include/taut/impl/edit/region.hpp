@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/detail/face_set.hpp>
 #include <taut/impl/edit/geodesic_distances.hpp>
+#include <taut/impl/edit/surface/face_set.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 
 namespace taut::impl

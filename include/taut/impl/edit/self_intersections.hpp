@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <taut/impl/core/parallel.hpp>
-#include <taut/impl/edit/detail/surface_tree.hpp>
+#include <taut/impl/edit/surface/surface_tree.hpp>
 #include <taut/impl/exact/triangles_meet.hpp>
 #include <taut/impl/mesh/mesh.hpp>
 

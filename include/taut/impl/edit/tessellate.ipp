@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/detail/feature_refinement.hpp>
-#include <taut/impl/edit/detail/polygon_filling.hpp>
 #include <taut/impl/edit/feature_map.hpp>
 #include <taut/impl/edit/paste_error.hpp>
+#include <taut/impl/edit/surface/feature_refinement.hpp>
+#include <taut/impl/edit/surface/polygon_filling.hpp>
 #include <taut/impl/edit/tessellate.hpp>
 
 namespace taut::impl

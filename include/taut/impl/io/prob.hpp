@@ -14,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include <taut/impl/io/detail/scanner.hpp>
+#include <taut/impl/io/file/scanner.hpp>
 #include <taut/impl/io/read_file.hpp>
 #include <taut/impl/mesh/mesh.hpp>
 
