@@ -12,6 +12,19 @@
 #include <taut/impl/compute/queue_counters.hpp>
 #include <taut/impl/core/observer.hpp>
 
+namespace taut::impl
+{
+
+/// Tuning of flatten_charts().
+struct flatten_tuning
+{
+    /// Maximum cost of the factorization of a chart in millions of multiplications; above, the chart is solved by
+    /// `parameterize`. The default corresponds to about 5,000 triangles, where both take as long.
+    double largest = 30;
+};
+
+} // namespace taut::impl
+
 namespace taut
 {
 
@@ -26,10 +39,6 @@ struct flatten_params
     /// Maximum number of Newton steps of a chart; 0 returns the starts.
     int max_iterations = 100;
 
-    /// Maximum cost of the factorization of a chart in millions of multiplications; above, the chart is solved by
-    /// `parameterize`. The default corresponds to about 5,000 triangles, where both take as long.
-    double largest = 30;
-
     /// Initial map, one point per vertex of the chart mesh in any place and in units of the surface, or empty. Charts
     /// for which it is not valid get another start.
     std::span<const vec2> initial = {};
@@ -37,6 +46,9 @@ struct flatten_params
     /// Limits of the whole call. The observer is asked after each step: progress::iteration counts finished charts,
     /// progress::value is the mean energy of the current maps.
     run_limits limits = {};
+
+    /// Not for users: what tests and measurements set.
+    impl::flatten_tuning tuning = {};
 
     /// Throws parameter_error that names the field.
     void validate() const;
