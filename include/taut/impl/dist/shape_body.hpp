@@ -248,7 +248,7 @@ private:
     bool follow(agreed_limits& clock, report& r)
     {
         const pinned_bodies<Element> bodies(part_, held_, x_, rest_.lengths);
-        if (bodies.parts() > 1 && draft(bodies)) return true;
+        if (bodies.parts() > 1 && start_from_guess(bodies)) return true;
         if (follow_parts(bodies, clock, r)) return true;
         constexpr std::int64_t most = 200000; // vertices, whose factors fit into memory
         if (!clock.over() && objective_->unknowns() <= most && multigrid_.use_factors())
@@ -306,7 +306,7 @@ private:
     }
 
     /// Returns whether the guess was taken: no element is inverted or nearly flat.
-    bool draft(const pinned_bodies<Element>& bodies)
+    bool start_from_guess(const pinned_bodies<Element>& bodies)
     {
         const auto timed = clock_.measure(&phase_seconds::start);
         bool partial = !held_.slides.empty();

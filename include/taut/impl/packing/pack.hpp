@@ -64,9 +64,9 @@ namespace taut::impl
 struct chart_outlines;
 
 /// Packs charts with known borders in these coordinates.
-/// draft: quickly, to compare charts with others; only places on a grid of unknown scale are found more quickly
+/// trial: quickly, to compare charts with others; only places on a grid of unknown scale are found more quickly
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params,
-                      bool draft = false);
+                      bool trial = false);
 
 } // namespace taut::impl
 
