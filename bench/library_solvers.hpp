@@ -84,7 +84,7 @@ inline std::vector<solver> library_solvers(taut::queue& q)
                              return run_library(q, path, p, limits);
                          }});
     };
-    const taut::barycentric_params tutte{
+    const taut::impl::barycentric_params tutte{
         .boundary = {.shape = taut::boundary_shape::circle, .spacing = taut::boundary_spacing::chord},
         .weights = taut::barycentric_weights::uniform};
     const auto without_end = [](parameterize_params& p)

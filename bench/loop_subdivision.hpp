@@ -51,7 +51,7 @@ inline taut::mesh<taut::triangle> loop_subdivision(const taut::mesh<taut::triang
 {
     using taut::idx;
     const auto at = [](idx i) { return static_cast<std::size_t>(i); };
-    const auto f = taut::facets(m);
+    const auto f = taut::impl::facets(m);
     const auto& old = m.points();
     std::vector<taut::vec3> points(old.size());
     std::vector<impl::ring> rings(old.size());

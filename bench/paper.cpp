@@ -22,7 +22,7 @@ using namespace taut;
 /// Counters of the queue at the first iterate and at the last, so that start-up is left out.
 struct usage
 {
-    queue_counters first, last;
+    taut::impl::queue_counters first, last;
 };
 
 /// A way to run the method.

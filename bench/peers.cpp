@@ -58,7 +58,7 @@ struct graph
 /// Tutte's map with uniform weights on a circle, spaced by chord length, in the numbering of `rank`.
 std::vector<double> tutte(const surface& m, const problem& p, const std::vector<int>& rank)
 {
-    const auto loops = taut::boundary_loops(m, taut::facets(m));
+    const auto loops = taut::boundary_loops(m, taut::impl::facets(m));
     if (loops.size() != 1) throw std::runtime_error("not a disk");
     const auto& rim = loops.front();
     std::vector<double> turn(rim.size() + 1, 0);

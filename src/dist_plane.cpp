@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/dist/detail/check.ipp>
-#include <taut/impl/dist/detail/session.ipp>
-#include <taut/impl/dist/detail/smooth.ipp>
+#include <taut/impl/dist/entry_points/check.ipp>
+#include <taut/impl/dist/entry_points/session.ipp>
+#include <taut/impl/dist/entry_points/smooth.ipp>
 
 namespace taut::dist
 {

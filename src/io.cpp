@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/io/detail/cut_seams.ipp>
-#include <taut/impl/io/detail/read_surface.ipp>
-#include <taut/impl/io/detail/write_files.ipp>
-#include <taut/impl/io/detail/write_obj.ipp>
+#include <taut/impl/io/file/write_files.ipp>
+#include <taut/impl/io/surface/cut_seams.ipp>
+#include <taut/impl/io/surface/read_surface.ipp>
+#include <taut/impl/io/surface/write_obj.ipp>
 #include <taut/impl/io/volume/read_volume.ipp>
 #include <taut/impl/io/volume/subdivided.ipp>
 #include <taut/impl/io/volume/volume_file.ipp>

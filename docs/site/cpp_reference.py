@@ -52,11 +52,11 @@ def parted(text):
     return comment, "\n".join(rest).strip()
 
 
-def declarations(text):
-    """[(name, comment, declaration)] of the public namespaces of a header."""
+def declarations(text, spaces=PUBLIC):
+    """[(name, comment, declaration)] of some namespaces of a header."""
     code, found = blank(text), []
     for m in re.finditer(r"^namespace ([\w:]+)\n\{", code, re.M):
-        if m.group(1) not in PUBLIC:
+        if m.group(1) not in spaces:
             continue
         space = (m.group(1) + "::").removeprefix("taut::")
         for begin, stop, head in statements(code, m.end(), closing(code, m.end() - 1)):
@@ -80,6 +80,21 @@ def declarations(text):
     return found
 
 
+def parts_of(name, shown, inner, told):
+    """Plain types of impl that a public declaration names, parts of options and results, and theirs: programs need not
+    name them, but see what they hold. told: those that the page has already."""
+    space = name.rpartition("::")[0]
+    found = []
+    for outer, word in re.findall(r"((?:\w+::)*)impl::(\w+)", shown):
+        for at in (outer.removeprefix("taut::") + "impl::" + word, (space + "::" if space else "") + "impl::" + word):
+            if at in inner and at not in told and not word.endswith("tuning"):
+                told.add(at)
+                found.append(at)
+                found += parts_of(at.replace("impl::", ""), re.sub(r"\b(?<!::)(?=\w+\s+\w+[;=])", "impl::", inner[at][1]),
+                                  inner, told)
+    return found
+
+
 def prose(comment):
     """A comment in Markdown; what would be markup in it stays as it is, and indented lines are code."""
     lines = []
@@ -92,11 +107,14 @@ def prose(comment):
 def write(folder):
     """The pages, in the order of docs/reference/names.md; their names."""
     include = ROOT / "include/taut"
-    every = {}
+    every, inner = {}, {}
     for path in sorted(include.rglob("*.hpp")):
         if "kernels" not in path.parts:
             for name, comment, shown in declarations(path.read_text(encoding="utf-8")):
                 every.setdefault(name, []).append((comment, shown))
+            for name, comment, shown in declarations(path.read_text(encoding="utf-8"), {f"{space}::impl" for space in PUBLIC}):
+                if comment and re.match(r"(?:template\s*<[^{]*>\s*)?(?:struct|enum class)\s+\w+\s*\{", shown):
+                    inner[name] = (comment, shown)
     folder.mkdir(parents=True)
     pages = []
     listed = (ROOT / "docs/reference/names.md").read_text(encoding="utf-8")
@@ -105,7 +123,7 @@ def write(folder):
         if not header:
             continue
         about = section.split("\n", 1)[1].split("\n|", 1)[0].strip()
-        out = [f"# taut/{header[1]}.hpp", "", about, ""]
+        out, told = [f"# taut/{header[1]}.hpp", "", about, ""], set()
         for name, meaning in re.findall(r"^\| `([\w:]+)` \| (.*?) \|$", section, re.M):
             out += [f"## `{name}`", ""]
             said = " ".join(every[name][0][0]).lower() if name in every else ""
@@ -113,6 +131,8 @@ def write(folder):
                 out += [meaning[:1].upper() + meaning[1:] + ".", ""]
             for comment, shown in every.get(name, []):
                 out += [prose(comment), "", "```cpp", shown, "```", ""]
+                for part in parts_of(name, shown, inner, told):
+                    out += [prose(inner[part][0]), "", "```cpp", inner[part][1], "```", ""]
         (folder / f"{header[1]}.md").write_text("\n".join(out), encoding="utf-8")
         pages.append(header[1])
     return pages

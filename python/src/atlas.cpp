@@ -77,7 +77,7 @@ private:
     {
         if (seam_edges.empty() && parts.empty() && polygons.empty()) return;
         const auto& m = surface();
-        const auto f = facets(m);
+        const auto f = impl::facets(m);
         std::set<std::array<idx, 2>> wanted;
         for (const auto& e : seam_edges) wanted.insert(ordered(e[0], e[1]));
         seams.assign(f.twin.size(), 0);

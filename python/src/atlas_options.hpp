@@ -28,9 +28,9 @@ inline void read_atlas_options(atlas_params& params, const options& given)
     }
     given.read("max_distortion", charts.max_distortion);
     given.read("mean_distortion", charts.mean_distortion);
-    given.read("least_fill", charts.least_fill);
-    given.read("cut_rounds", charts.cut_rounds);
-    given.read("unite_rounds", charts.unite_rounds);
+    given.read("least_fill", charts.tuning.least_fill);
+    given.read("cut_rounds", charts.tuning.cut_rounds);
+    given.read("unite_rounds", charts.tuning.unite_rounds);
     pack_params& packing = params.packing;
     given.read("resolution", packing.resolution);
     given.read("padding", packing.padding);

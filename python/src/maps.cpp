@@ -52,7 +52,7 @@ struct map_job
 /// The surface cut along seams that make it one disk; nothing if it is one.
 std::optional<chart_mesh> cut_if_needed(const mesh<triangle>& m)
 {
-    const auto f = facets(m);
+    const auto f = impl::facets(m);
     validate(m, f, {.referenced = false, .open = false, .one_boundary = false, .no_handles = false});
     if (check(m, f, {.referenced = false}).empty()) return std::nullopt;
     return cut_charts(m, f, cut_to_disk(m, f));
@@ -149,7 +149,7 @@ nb::object distortion_of(const array& V, const array& C, const array& x)
     return array_of(std::move(values));
 }
 
-nb::dict dict_of(const means& m)
+nb::dict dict_of(const impl::means& m)
 {
     nb::dict d;
     d["uniform"] = m.uniform;
@@ -157,7 +157,7 @@ nb::dict dict_of(const means& m)
     return d;
 }
 
-nb::dict dict_of(const spread& s)
+nb::dict dict_of(const impl::spread& s)
 {
     nb::dict d;
     d["min"] = s.min;

@@ -31,8 +31,8 @@ struct pasted
     std::vector<std::array<idx, 3>> cells;
     std::vector<idx> origins, kept_faces;
     idx first_gap = 0, first_feature = 0;
-    paste_report report;
-    seam_quality seam;
+    impl::paste_report report;
+    impl::seam_quality seam;
     bool unfolded = true;
 };
 

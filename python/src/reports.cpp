@@ -11,10 +11,10 @@ nb::list texts(const std::vector<std::string>& all)
     return list;
 }
 
-nb::list stages_of(const std::vector<stage_report>& stages)
+nb::list stages_of(const std::vector<impl::stage_report>& stages)
 {
     nb::list list;
-    for (const stage_report& s : stages)
+    for (const impl::stage_report& s : stages)
     {
         nb::dict d;
         d["stage"] = text(s.stage);
@@ -46,7 +46,7 @@ nb::dict dict_of(const certificate& c)
     return d;
 }
 
-nb::dict dict_of(const shape_quality& q)
+nb::dict dict_of(const impl::shape_quality& q)
 {
     nb::dict d;
     d["mean_ratio"] = q.mean_ratio;
@@ -91,7 +91,7 @@ nb::dict dict_of(const map_report& r)
     d["scale"] = r.scale;
     d["stages"] = stages_of(r.stages);
     d["flips"] = dict_of(r.flips);
-    const map_seconds& s = r.seconds;
+    const impl::map_seconds& s = r.seconds;
     d["seconds"] = s.device + s.setup + s.hierarchy + s.start + s.untangle + s.solve + s.overlap;
     if (r.overlap) d["overlaps"] = r.overlap->crossings;
     return d;

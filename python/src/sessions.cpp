@@ -156,7 +156,7 @@ public:
     nb::object solve(double seconds, int steps, nb::handle progress, const control_handle& watched)
     {
         at_rest();
-        session_budget budget;
+        impl::session_budget budget;
         budget.time = std::chrono::duration<double>(seconds);
         if (steps > 0) budget.steps = steps;
         budget.validate();

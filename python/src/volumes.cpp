@@ -141,10 +141,10 @@ nb::object deform_of(const array& V, const nb::list& C, const nb::dict& keywords
                         job->queue_in_use = borrow_queue(job->device);
                         if (job->refine)
                             return deform_refined(*job->queue_in_use, job->simplices(), job->deforming, job->refining);
-                        return refined_deformation<Element>{
+                        return impl::refined_deformation<Element>{
                             deform(*job->queue_in_use, job->simplices(), job->deforming), job->simplices(), {}, {}, 0};
                     }),
-                [&](refined_deformation<Element> made) -> nb::object
+                [&](impl::refined_deformation<Element> made) -> nb::object
                 {
                     nb::dict d = dict_of(made.result.report);
                     d["x"] = array_of<D>(std::move(made.result.x));
@@ -229,10 +229,10 @@ nb::object untangle_of(const array& X, const nb::list& C, const nb::dict& keywor
                         job->queue_in_use = borrow_queue(job->device);
                         if (job->refine)
                             return untangle_refined(*job->queue_in_use, job->problem, job->params, job->refining);
-                        return refined_untangling<Element>{untangle(*job->queue_in_use, job->problem, job->params),
-                                                           {job->problem}};
+                        return impl::refined_untangling<Element>{
+                            untangle(*job->queue_in_use, job->problem, job->params), {job->problem}};
                     }),
-                [&](refined_untangling<Element> made) -> nb::object
+                [&](impl::refined_untangling<Element> made) -> nb::object
                 {
                     nb::dict d = dict_of(std::move(made.result));
                     if (job->refine) add_refined(d, made.refined.problem.rest, made.refined.cells, made.refined.rounds);

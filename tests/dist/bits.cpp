@@ -175,7 +175,7 @@ TEST_CASE("dist deform: a mesh gathered on process 0 gets the shape that one pro
     dist::session<tetrahedron> s(MPI_COMM_WORLD, p, how);
     auto& body = s.body();
     dist::impl::petsc_scope petsc;
-    dist::impl::held_part<tetrahedron> held(body.mesh_part());
+    dist::impl::fixed_part<tetrahedron> held(body.mesh_part());
     held.take(body.mesh_part(), how.constraints);
     const double lengths = body.at_rest().lengths;
     const auto found =

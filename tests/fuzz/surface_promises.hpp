@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <taut/impl/io/cut_seams.hpp>
-#include <taut/impl/io/detail/obj_output.hpp>
 #include <taut/impl/io/obj.hpp>
+#include <taut/impl/io/surface/obj_output.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 #include <taut/impl/mesh/order.hpp>
 #include <taut/impl/mesh/validate.hpp>
@@ -45,7 +45,7 @@ inline void require_in_range(const io::surface_file& file)
 /// What check(), the order and the boundary promise of any surface.
 inline void require_examinable(const mesh<triangle>& surface)
 {
-    const auto sides = facets(surface);
+    const auto sides = impl::facets(surface);
     const auto found = check(surface, sides);
     const auto same = check(impl::permute(surface, impl::locality_order(surface)));
     require(found.size() == same.size(), "another order has the same faults");
@@ -96,7 +96,7 @@ inline void require_repairable(const io::surface_soup& soup)
         for (std::size_t k = 0; k < 3; ++k)
             require(soup.faces.corners[soup.faces.corner(c, k)] == soup.triangles[c][k],
                     "corners of triangles are corners of faces");
-    const mesh_requirements any{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
+    const impl::mesh_requirements any{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
     const auto repaired =
         repair_surface(soup.points, soup.triangles, {.normals = soup.normals, .normal_cells = soup.normal_cells});
     require(check(repaired.surface, any).empty(), "what is repaired is an oriented manifold");

@@ -161,6 +161,7 @@ TEST_CASE("report: what is shown cannot end the page's script, and asks for noth
     CHECK(html.find("</script><b>") == html.npos);
     CHECK(html.find("\\u003c/script>\\u003cb>") != html.npos);
     CHECK(html.find("@data@") == html.npos);
+    CHECK(html.find("@scene@") == html.npos);
     for (const char* other : {"src=\"", "@import", "url(", "href=\"http"}) CHECK(html.find(other) == html.npos);
     CHECK(html == report::atlas_report_html(page));
 }

@@ -24,7 +24,7 @@ inline mesh<triangle> chart(const chart_mesh& charts, idx k)
 }
 
 /// Every chart that these seams make must be a disk, with holes or without. Returns their number.
-inline idx check_flattenable(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
+inline idx check_flattenable(const mesh<triangle>& m, const impl::facet_table& f, std::span<const char> seam)
 {
     for (std::size_t s = 0; s < seam.size(); ++s)
         if (f.twin[s] >= 0 && seam[s] != seam[static_cast<std::size_t>(f.twin[s])]) FAIL("a seam has one side");
@@ -32,7 +32,7 @@ inline idx check_flattenable(const mesh<triangle>& m, const facet_table& f, std:
     for (idx k = 0; k < charts.charts(); ++k)
     {
         const auto one = chart(charts, k);
-        const auto faults = check(one, facets(one), {.one_boundary = false});
+        const auto faults = check(one, impl::facets(one), {.one_boundary = false});
         if (!faults.empty()) FAIL("chart " << k << ": " << faults.front().message);
     }
     return charts.charts();

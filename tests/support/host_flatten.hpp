@@ -34,7 +34,7 @@ inline host_maps::report flatten_on_host(const mesh<triangle>& m, std::span<vec2
 {
     const std::vector<char> fixed(m.points().size(), 0);
     impl::isometric_newton newton(m.points(), m.cells(), fixed);
-    std::vector<vec2> x = impl::barycentric_map(m, facets(m), {.stretch_rounds = 2}).uv;
+    std::vector<vec2> x = impl::barycentric_map(m, impl::facets(m), {.stretch_rounds = 2}).uv;
     host_maps::report report;
     double energy = newton.value(x);
     for (int i = 0; i < 60 && energy < std::numeric_limits<double>::infinity(); ++i)

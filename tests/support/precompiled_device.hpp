@@ -3,4 +3,4 @@
 
 #include "precompiled.hpp"
 
-#include <taut/impl/compute/detail/opencl.hpp>
+#include <taut/impl/compute/opencl.hpp>

@@ -12,8 +12,9 @@
 namespace taut::test
 {
 
-inline constexpr rbf_basis all_bases[] = {rbf_basis::linear, rbf_basis::cubic, rbf_basis::thin_plate,
-                                          rbf_basis::wendland_c2, rbf_basis::wendland_c4};
+inline constexpr impl::rbf_basis all_bases[] = {impl::rbf_basis::linear, impl::rbf_basis::cubic,
+                                                impl::rbf_basis::thin_plate, impl::rbf_basis::wendland_c2,
+                                                impl::rbf_basis::wendland_c4};
 
 /// Points at random in a box about the origin, `size` long on each side.
 inline std::vector<vec3> scattered_points(std::size_t n, std::uint32_t seed, double size = 1)

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/core/linalg.hpp>
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/energy/corner_derivatives.hpp>
@@ -29,7 +29,7 @@ public:
     static constexpr int D = Element::dimension;
 
     /// Both are referred to.
-    regularized_sum(const mesh<Element>& m, const held_marks<D>& held)
+    regularized_sum(const mesh<Element>& m, const fixed_marks<D>& held)
         : mesh_(m),
           held_(held),
           around_(vertex_corners(m)),
@@ -90,14 +90,14 @@ private:
     {
         const mat<D> S = mapped(x, c);
         const double weight = shapes[c].weight;
-        const auto f = energy::regularized<D>{eps, area_weight}.first_derivatives(norm2(S), glm::determinant(S));
+        const auto f = energy::impl::regularized<D>{eps, area_weight}.first_derivatives(norm2(S), glm::determinant(S));
         values_[c] = weight * f.value;
         const auto g = corner_gradient<D>(weight * gradient_by_shape(S, f.by_I, f.by_d), shapes[c].inverse);
         for (std::size_t k = 0; k < g.size(); ++k) forces_[c * g.size() + k] = g[k];
     }
 
     const mesh<Element>& mesh_;
-    const held_marks<D>& held_;
+    const fixed_marks<D>& held_;
     csr around_;
     std::vector<vec<D>> forces_; // of a corner
     std::vector<double> values_; // of an element

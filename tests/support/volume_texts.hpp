@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
 #include <taut/impl/io/volume_file.hpp>
 
 /// Small volume meshes, and their files in every format as other programs write them.

@@ -181,6 +181,7 @@ def strangers(path):
         assert status == 200 and len(text) > 10000 and "nosniff" in head and "frame-ancestors 'none'" in head
         assert p.request(method="HEAD")[2] == b""
         assert p.request("/page.css", origin=here)[0] == 200
+        assert len(p.request("/scene.js", origin=here)[2]) > 100000
         assert p.request(host=f"localhost:{p.port}")[0] == 200
         for rude in ({"host": "evil.example"}, {"host": f"evil.example:{p.port}"}, {"host": "127.0.0.1"}, {"origin": "http://evil.example"},
                      {"origin": "null"}, {"origin": f"http://localhost:{p.port}"}, {"target": "/live", "host": "evil.example"}):

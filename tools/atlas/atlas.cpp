@@ -31,15 +31,13 @@
 #include <taut/impl/mesh/boundary.hpp>
 
 #include "commands.hpp"
+#include "shared/command_run.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/layout_file.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
 #include "shared/png.hpp"
-#include "shared/progress.hpp"
-#include "shared/report_files.hpp"
-#include "shared/run_clock.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
@@ -83,21 +81,16 @@ class atlas_run
 {
 public:
     atlas_run(const atlas_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
-        : options_(options),
-          clock_(launch),
-          progress_(progress_of(options.progress, options.quiet), std::cerr),
-          place_of_report_(options.quiet ? nullptr : files.place_of_report())
+        : options_(options), command_(options, files, launch)
     {
     }
 
     exit_code operator()()
     {
-        check(options_);
-        limit_time(options_.time_limit - clock_.now());
-        tell("read");
+        command_.tell("read");
         try
         {
-            report_.read = clock_.timed([&] { read(); });
+            report_.read = command_.clock.timed([&] { read(); });
             make();
         }
         catch (const mesh_error& e)
@@ -113,8 +106,6 @@ public:
     }
 
 private:
-    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
-
     void read()
     {
         for (std::size_t i = 0; i < options_.inputs.size(); ++i)
@@ -144,7 +135,7 @@ private:
     {
         try
         {
-            validate(m, facets(m), atlas_requirements);
+            validate(m, impl::facets(m), impl::atlas_requirements);
         }
         catch (const mesh_error& e)
         {
@@ -156,7 +147,7 @@ private:
     {
         const auto& m = joined_->surface;
         auto params = to_params(options_);
-        const auto f = facets(m);
+        const auto f = impl::facets(m);
         const auto seams = seams_of(sources_, *joined_, f, options_);
         params.charts.seams = seams;
         const auto weights = seam_weights_of(sources_, *joined_, f, options_);
@@ -179,15 +170,15 @@ private:
         params.limits.observer = [this](const taut::progress& p)
         {
             keep(p.usable);
-            progress_.update({.phase = p.stage, .step = p.iteration, .energy = p.value, .seconds = clock_.now()});
+            command_.tell({.phase = p.stage, .step = p.iteration, .energy = p.value});
             return !interrupted();
         };
-        tell("device");
+        command_.tell("device");
         std::optional<queue> q;
-        report_.queue = clock_.timed([&] { q = open_queue(options_.device, false); });
+        report_.queue = command_.clock.timed([&] { q = open_queue(options_.device, false); });
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
-        params.limits.time_limit = clock_.left(options_.time_limit);
+        params.limits.time_limit = command_.clock.left(options_.time_limit);
         try
         {
             atlas_ = make_atlas(*q, m, params);
@@ -242,14 +233,7 @@ private:
 
     void write()
     {
-        tell("write");
         keep(true);
-        const double begin = clock_.now();
-        const auto note_time = [&]
-        {
-            report_.total = clock_.now();
-            report_.write = report_.total - begin - report_.draw;
-        };
         const corner_maps maps(*joined_, *atlas_);
         std::vector<io::file_to_write> files;
         if (options_.outputs.size() < sources_.size())
@@ -260,11 +244,16 @@ private:
                 for (auto& file : sources_[i]->files(options_.outputs[i], maps.of(i), numbers_, report_.notes))
                     files.push_back(std::move(file));
         const auto draw = [&](std::string& path, auto image)
-        { add_picture(files, path, report_.notes, clock_, report_.draw, image); };
+        { add_picture(files, path, report_.notes, command_.clock, report_.draw, image); };
         draw(options_.picture, [this] { return picture(); });
         draw(options_.render, [this] { return render(); });
         draw(options_.report, [this] { return page(); });
-        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
+        command_.write(std::move(files), report_, options_,
+                       [&](double total, double write)
+                       {
+                           report_.total = total;
+                           report_.write = write - report_.draw;
+                       });
     }
 
     std::string title() const
@@ -344,14 +333,12 @@ private:
     }
 
     atlas_options options_;
-    run_clock clock_;
-    progress progress_;
+    command_run command_;
     std::vector<std::unique_ptr<atlas_source>> sources_;
     std::optional<joined_surfaces> joined_;
     std::optional<atlas> atlas_;
     io::gltf_numbers numbers_ = io::gltf_numbers::floats;
     atlas_run_report report_;
-    const char* place_of_report_; ///< null: there is none
 };
 
 } // namespace

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/io/detail/obj_output.hpp>
+#include <taut/impl/io/surface/obj_output.hpp>
 #include <taut/impl/mesh/ideal.hpp>
 
 #include "shared/assessment.hpp"
@@ -61,7 +61,7 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     json["area_difference"] = finite(a.area_difference);
     json["density_spread"] = finite(a.density_spread);
     json["large_charts"] =
-        std::count_if(a.charts.begin(), a.charts.end(), [](const chart_summary& c) { return c.triangles > 10; });
+        std::count_if(a.charts.begin(), a.charts.end(), [](const impl::chart_summary& c) { return c.triangles > 10; });
     if (a.symmetry)
         json["symmetry"] = {{"normal", {a.symmetry->normal.x, a.symmetry->normal.y, a.symmetry->normal.z}},
                             {"offset", a.symmetry->offset},
@@ -201,11 +201,12 @@ std::vector<double> triangle_energies(const atlas& made, double aspect)
     std::vector<vec2> uv = made.uv;
     for (vec2& x : uv) x.y *= aspect;
     const auto& cut = made.charts.surface;
-    const ideal_elements<triangle> ideal(cut);
+    const impl::ideal_elements<triangle> ideal(cut);
     std::vector<double> energy(cut.cells().size());
     for (std::size_t i = 0; i < energy.size(); ++i)
     {
-        const mat2 S = shape_matrix<2>(cut.cells()[i], std::span<const vec2>(uv), ideal.inverse[i]) / made.layout.scale;
+        const mat2 S =
+            impl::shape_matrix<2>(cut.cells()[i], std::span<const vec2>(uv), ideal.inverse[i]) / made.layout.scale;
         energy[static_cast<std::size_t>(made.charts.cell_origins[i])] =
             energy::isometric{}(element<double, 2>{S, glm::determinant(S), ideal.measure[i]});
     }

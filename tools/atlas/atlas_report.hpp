@@ -25,7 +25,7 @@ struct atlas_run_report
         std::string input, output;
         idx vertices = 0, triangles = 0; ///< of the file
         idx mapped = 0;                  ///< triangles that have a place in the atlas
-        std::vector<repair_finding> repairs;
+        std::vector<impl::repair_finding> repairs;
     };
 
     std::vector<surface> surfaces;

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include <taut/impl/core/disjoint_sets.hpp>
-#include <taut/impl/io/detail/obj_statements.hpp>
+#include <taut/impl/io/surface/obj_statements.hpp>
 #include <taut/impl/io/write_obj.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
@@ -278,7 +278,7 @@ std::vector<io::file_to_write> atlas_source::gltf_files(const std::string& path,
             taut::impl::counted(out, "triangle", "triangles") +
             " left out: all corners in one point of the map, as glTF has no triangle without coordinates");
     note_mirrored(changes);
-    return io::gltf_files(path, model, result, set, numbers);
+    return io::impl::gltf_files(path, model, result, set, numbers);
 }
 
 void atlas_source::note_mirrored(std::vector<std::string>& changes) const

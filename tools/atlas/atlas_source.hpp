@@ -41,9 +41,10 @@ public:
     idx cell_origin(idx c) const { return repaired_ ? repaired_->cell_origins[static_cast<std::size_t>(c)] : c; }
 
     /// Repairs of the input.
-    std::span<const repair_finding> repairs() const
+    std::span<const impl::repair_finding> repairs() const
     {
-        return repaired_ ? std::span<const repair_finding>(repaired_->findings) : std::span<const repair_finding>();
+        return repaired_ ? std::span<const impl::repair_finding>(repaired_->findings)
+                         : std::span<const impl::repair_finding>();
     }
 
     /// Texture coordinates of the file, in the plane of the atlas, one per corner of the surface; or empty.

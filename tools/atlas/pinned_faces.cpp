@@ -14,7 +14,7 @@
 namespace taut::tools
 {
 
-std::vector<char> pinned_of(const atlas_source& source, const facet_table& f, const std::string& path)
+std::vector<char> pinned_of(const atlas_source& source, const impl::facet_table& f, const std::string& path)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     auto named = read_faces(path);
@@ -45,7 +45,7 @@ std::vector<char> pinned_of(const atlas_source& source, const facet_table& f, co
         throw unsuitable_input(path + ": face " +
                                std::to_string(named[static_cast<std::size_t>(missing - found.begin())]) +
                                " is not there, or was left out; faces run from 0 in the order of the file");
-    const auto torn = seams_of_map(source.surface(), f, uv);
+    const auto torn = impl::seams_of_map(source.surface(), f, uv);
     while (!front.empty())
     {
         const idx c = front.back();

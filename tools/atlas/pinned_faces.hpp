@@ -13,6 +13,6 @@ namespace taut::tools
 
 /// One flag a triangle: those of the charts of the file's texture coordinates that have one of the faces which the file
 /// `path` names. f: facets of the surface. Throws io_error, unsuitable_input.
-std::vector<char> pinned_of(const atlas_source& source, const facet_table& f, const std::string& path);
+std::vector<char> pinned_of(const atlas_source& source, const impl::facet_table& f, const std::string& path);
 
 } // namespace taut::tools

@@ -54,17 +54,17 @@ void mark_edges(std::vector<char>& seam, const std::vector<std::array<idx, 2>>& 
 }
 
 /// Marks the sides along which texture coordinates are torn.
-void mark_texcoords(std::vector<char>& seam, const mesh<triangle>& m, const facet_table& f,
+void mark_texcoords(std::vector<char>& seam, const mesh<triangle>& m, const impl::facet_table& f,
                     const std::vector<std::array<vec2, 3>>& uv)
 {
-    const auto torn = seams_of_map(m, f, uv);
+    const auto torn = impl::seams_of_map(m, f, uv);
     for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || torn[s] != 0;
 }
 
 } // namespace
 
 std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
-                           const facet_table& f, const atlas_options& options)
+                           const impl::facet_table& f, const atlas_options& options)
 {
     if (options.seams.empty() && !options.keep_charts() && !options.keep_seams && !options.by_material) return {};
     std::vector<char> seam(f.twin.size(), 0);
@@ -102,7 +102,8 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
 }
 
 std::vector<double> seam_weights_of(const std::vector<std::unique_ptr<atlas_source>>& sources,
-                                    const joined_surfaces& joined, const facet_table& f, const atlas_options& options)
+                                    const joined_surfaces& joined, const impl::facet_table& f,
+                                    const atlas_options& options)
 {
     std::vector<double> weights;
     const bool whole = !options.symmetric && options.pinned.empty(); // of the surface that is cut
@@ -151,7 +152,7 @@ std::vector<idx> tiles_by_material(const atlas_source& source)
     return tile;
 }
 
-std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const facet_table& f)
+std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const impl::facet_table& f)
 {
     std::vector<std::array<idx, 2>> polygon; // of each triangle: file, polygon
     bool any = false;

@@ -15,15 +15,16 @@ namespace taut::tools
 /// The seams that the options ask for, one flag a side of the joined surface, whose facets are `f`; empty if there are
 /// none. Throws io_error, unsuitable_input.
 std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
-                           const facet_table& f, const atlas_options& options);
+                           const impl::facet_table& f, const atlas_options& options);
 
 /// Factors of what seams cost along each side: those of the file of weights, and less between materials where there is
 /// an angle of creases; empty if there are none. Throws io_error, unsuitable_input.
 std::vector<double> seam_weights_of(const std::vector<std::unique_ptr<atlas_source>>& sources,
-                                    const joined_surfaces& joined, const facet_table& f, const atlas_options& options);
+                                    const joined_surfaces& joined, const impl::facet_table& f,
+                                    const atlas_options& options);
 
 /// The edges between triangles of one polygon, one flag a side; empty if all faces are triangles.
-std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const facet_table& f);
+std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const impl::facet_table& f);
 
 /// The texture coordinates of all files, one per corner of the joined surface.
 /// Throws unsuitable_input if a file has none, io::texcoord_error if a corner has none.

@@ -28,13 +28,11 @@
 
 #include "commands.hpp"
 #include "shared/assessment.hpp"
+#include "shared/command_run.hpp"
 #include "shared/failure.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
 #include "shared/png.hpp"
-#include "shared/progress.hpp"
-#include "shared/report_files.hpp"
-#include "shared/run_clock.hpp"
 #include "shared/text_table.hpp"
 #include "shared/tile_names.hpp"
 #include "shared/writing.hpp"
@@ -130,14 +128,13 @@ class bake_run
 {
 public:
     bake_run(const bake_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
-        : options_(options), clock_(launch), place_of_report_(options.quiet ? nullptr : files.place_of_report())
+        : options_(options), command_(options, files, launch)
     {
     }
 
     exit_code operator()()
     {
-        check(options_);
-        report_.read = clock_.timed([&] { read(); });
+        report_.read = command_.clock.timed([&] { read(); });
         queue_.emplace(open_queue(options_.device, false));
         report_.device = queue_->device().name();
         report_.device_label = (std::ostringstream() << queue_->device()).str();
@@ -146,14 +143,8 @@ public:
             bake_model(files);
         else
             bake_one(files);
-        const double begin = clock_.now();
-        progress none(progress_mode::none, std::cerr);
-        write_with_report(std::move(files), report_, options_, place_of_report_, none,
-                          [&]
-                          {
-                              report_.total = clock_.now();
-                              report_.write = report_.total - begin;
-                          });
+        command_.write(std::move(files), report_, options_,
+                       [&](double total, double write) { report_.total = total, report_.write = write; });
         return exit_code::valid;
     }
 
@@ -187,7 +178,7 @@ private:
             throw unsuitable_input(name + ": normals have three channels; give --content data");
         if (normals) make_frames(from, to);
         const auto& of_corners = old_.has_normals ? old_.normals : new_.normals;
-        const auto one = [&](const corner_uv& other, const bake_frames& frames)
+        const auto one = [&](const corner_uv& other, const impl::bake_frames& frames)
         {
             return [this, normals, frames, other = &other](const texture& image, const corner_uv& own,
                                                            const bake_params& how) {
@@ -196,7 +187,7 @@ private:
             };
         };
         std::map<idx, baked_texture> result;
-        report_.bake += clock_.timed(
+        report_.bake += command_.clock.timed(
             [&]
             {
                 result =
@@ -293,7 +284,7 @@ private:
             if (colours && !read.linear) to_linear(values);
             const auto one = [&](const texture& x, const corner_uv&, const bake_params& how)
             { return bake_corners(*queue_, x.texels, x.channels, new_.uv, how); };
-            report_.bake += clock_.timed(
+            report_.bake += command_.clock.timed(
                 [&] {
                     baked = bake_tiles({false, {{0, values}}}, {}, new_.uv, several, to_params(options_), one);
                 });
@@ -403,11 +394,10 @@ private:
     }
 
     const bake_options& options_;
-    run_clock clock_;
-    const char* place_of_report_;
+    command_run command_;
     textured_surface old_, new_;
     std::optional<queue> queue_;
-    std::vector<corner_tangents> old_tangents_, new_tangents_;
+    std::vector<impl::corner_tangents> old_tangents_, new_tangents_;
     std::map<idx, texture> differences_; // of the last texture, by tile
     bake_report report_;
 };

@@ -51,12 +51,12 @@ void take_normals(textured_surface& s, NormalAt normal_at)
 }
 
 /// Tangents of all corners, or none.
-std::vector<corner_tangents> read_tangents(const io::gltf_model& model)
+std::vector<impl::corner_tangents> read_tangents(const io::gltf_model& model)
 {
     const auto read = io::impl::read_attribute(model, "TANGENT");
     const auto is_known = [](double x) { return std::isfinite(x); };
     if (read.components != 4 || !std::all_of(read.values.begin(), read.values.end(), is_known)) return {};
-    std::vector<corner_tangents> tangents(model.triangles.size());
+    std::vector<impl::corner_tangents> tangents(model.triangles.size());
     for (std::size_t t = 0; t < tangents.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
         {

@@ -28,11 +28,11 @@ struct textured_surface
     std::string path;
     std::vector<vec3> points;
     std::vector<std::array<idx, 3>> triangles;
-    std::vector<std::array<vec2, 3>> uv;      ///< v upwards; not a number where there is none
-    std::vector<std::array<vec3, 3>> normals; ///< unit vectors; those of the file, else smooth ones
-    bool has_normals = false;                 ///< whether the file has them
-    std::vector<corner_tangents> tangents;    ///< those of the file, if it has them for all corners
-    std::optional<io::gltf_model> model;      ///< of glTF
+    std::vector<std::array<vec2, 3>> uv;         ///< v upwards; not a number where there is none
+    std::vector<std::array<vec3, 3>> normals;    ///< unit vectors; those of the file, else smooth ones
+    bool has_normals = false;                    ///< whether the file has them
+    std::vector<impl::corner_tangents> tangents; ///< those of the file, if it has them for all corners
+    std::optional<io::gltf_model> model;         ///< of glTF
     std::vector<std::string> notes;
 };
 

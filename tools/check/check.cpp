@@ -128,7 +128,7 @@ void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element
 }
 
 /// Repairs of --repair.
-std::vector<repair_finding> find_repairs(const io::surface_soup& soup)
+std::vector<impl::repair_finding> find_repairs(const io::surface_soup& soup)
 {
     try
     {
@@ -145,7 +145,7 @@ std::vector<repair_finding> find_repairs(const io::surface_soup& soup)
 }
 
 /// Adds what is known from mending alone. A mesh that can be used is no worse for it.
-void report_repairs(check_report& report, const std::vector<repair_finding>& repairs, bool usable)
+void report_repairs(check_report& report, const std::vector<impl::repair_finding>& repairs, bool usable)
 {
     for (const auto& r : repairs)
     {
@@ -158,7 +158,7 @@ void report_repairs(check_report& report, const std::vector<repair_finding>& rep
 
 /// The surface of a file. One that cannot be made is a finding, with its place in the file and all others of its kind.
 std::optional<io::surface_file> find_surface(check_report& report, const std::string& path, io::surface_soup soup,
-                                             const std::vector<repair_finding>& repairs)
+                                             const std::vector<impl::repair_finding>& repairs)
 {
     try
     {
@@ -166,7 +166,7 @@ std::optional<io::surface_file> find_surface(check_report& report, const std::st
     }
     catch (const mesh_error& e)
     {
-        mesh_finding found{e.fault(), e.ids(), e.what()};
+        impl::mesh_finding found{e.fault(), e.ids(), e.what()};
         std::string action;
         for (const auto& r : repairs)
         {
@@ -199,7 +199,7 @@ void check_surface(check_report& report, const check_options& options)
     const auto& m = cut ? cut->surface : file->surface;
     for (const auto& f : taut::check(m, {.referenced = false}))
     {
-        const auto mends = [&](const repair_finding& r)
+        const auto mends = [&](const impl::repair_finding& r)
         { return std::string_view(to_string(r.kind)) == to_string(f.fault); };
         const auto at = std::find_if(repairs.begin(), repairs.end(), mends);
         report_mesh(report, f, true, at == repairs.end() ? std::string() : at->action);
@@ -211,7 +211,7 @@ void check_surface(check_report& report, const check_options& options)
 }
 
 template <class Element>
-void check_problem(check_report& report, const check_options& options, io::prob_file<Element> file)
+void check_problem(check_report& report, const check_options& options, io::impl::prob_file<Element> file)
 {
     constexpr int D = Element::dimension;
     report.kind = std::string("problem of ") + Element::names;
@@ -225,7 +225,7 @@ void check_problem(check_report& report, const check_options& options, io::prob_
     report.has_map = true;
     report.map = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial));
     // What touches at a vertex alone, and vertices without cells, are no obstacle to untangling.
-    const mesh_requirements need{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
+    const impl::mesh_requirements need{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
     for (const auto& f : taut::check(problem.rest, need))
         report_mesh(report, f,
                     f.fault != mesh_fault::unreferenced_vertex && f.fault != mesh_fault::non_manifold_vertex);

@@ -62,7 +62,7 @@ struct check_report
     }
 };
 
-inline void report_mesh(check_report& report, const mesh_finding& f, bool wrong, const std::string& repair = {})
+inline void report_mesh(check_report& report, const impl::mesh_finding& f, bool wrong, const std::string& repair = {})
 {
     const bool holes = f.fault == mesh_fault::several_boundaries;
     report.add(

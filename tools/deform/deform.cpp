@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <chrono>
-#include <iostream>
 #include <memory>
 
 #include "commands.hpp"
 #include "deform/shell_run.hpp"
-#include "shared/interrupt.hpp"
-#include "shared/progress.hpp"
-#include "shared/run_clock.hpp"
+#include "shared/command_run.hpp"
 #include "shared/shared_options.hpp"
 #include "volume/shape_options.hpp"
 #include "volume/shape_run.hpp"
@@ -20,26 +17,22 @@ namespace
 
 exit_code run(const shape_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
 {
-    check(options);
-    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
-    const run_clock clock(launch);
-    limit_time(options.time_limit - clock.now());
-    progress progress(progress_of(options.progress, options.quiet), std::cerr);
+    command_run command(options, files, launch);
     if (!options.smoothing && names_surface(options.input))
     {
         if (options.refine) throw usage_error("--refine is of volumes and of meshes of the plane; leave it out");
         if (options.zone > 0) throw usage_error("--zone is of SU2 files; leave it out");
-        return shell_run(options, clock, progress, place_of_report)();
+        return shell_run(options, command)();
     }
     if (options.thickness)
         throw usage_error("--thickness is of surfaces in space (.obj, .off, .ply, .stl); leave it out");
-    progress.update({.phase = "read", .seconds = clock.now()});
+    command.tell("read");
     auto file = read_volume_at_rest(options.input, options.rest, options.zone);
     if (options.smoothing) file.rest.clear();
     require_drawable(file, {options.picture, options.cut, options.smoothing});
     require_mesh(file);
     return with_case(file, [&]<class Element>(const volume_case<Element>& input)
-                     { return shape_run<Element>(options, clock, progress, place_of_report, input)(); });
+                     { return shape_run<Element>(options, command, input)(); });
 }
 
 } // namespace

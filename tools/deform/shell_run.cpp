@@ -26,11 +26,11 @@
 #include <taut/impl/measure/describe_defects.hpp>
 
 #include "shared/assessment.hpp"
+#include "shared/command_run.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
-#include "shared/report_files.hpp"
 #include "shared/stages.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
@@ -38,8 +38,7 @@
 namespace taut::tools
 {
 
-shell_run::shell_run(const shape_options& options, run_clock clock, progress& progress, const char* place_of_report)
-    : options_(options), clock_(clock), progress_(progress), place_of_report_(place_of_report)
+shell_run::shell_run(const shape_options& options, command_run& command) : options_(options), command_(command)
 {
     const auto refuse = [](bool given, const char* option)
     {
@@ -69,15 +68,15 @@ exit_code shell_run::operator()()
     triangles_ = file.surface.cells().size();
     pins_ = pins.pins().size();
     springs_ = pins.springs().size();
-    read_ = clock_.now();
-    tell("device");
+    read_ = command_.clock.now();
+    command_.tell("device");
     auto q = open_queue(options_.device, false);
     device_ = q.device().name();
-    tell("deform");
+    command_.tell("deform");
     std::optional<session_result<hinge>> found;
     auto wanted = params(shell, pins);
     if (!options_.rest.empty()) wanted.initial = file.surface.points();
-    solve_ = clock_.timed([&] { found = deform(q, shell, wanted); });
+    solve_ = command_.clock.timed([&] { found = deform(q, shell, wanted); });
     take(*found, rest, pins);
     if (points_.empty()) refuse();
     run_.notes.insert(run_.notes.begin(), file.notes.begin(), file.notes.end());
@@ -103,15 +102,11 @@ shell_params shell_run::params(const thin_shell& shell, const constraints<hinge>
     {
         keep(at.usable);
         if (at.iterate)
-            progress_.update({.phase = "deform",
-                              .step = at.iteration,
-                              .energy = at.value,
-                              .gradient = at.gradient,
-                              .seconds = clock_.now()});
+            command_.tell({.phase = "deform", .step = at.iteration, .energy = at.value, .gradient = at.gradient});
         return !interrupted();
     };
     if (options_.tolerance) p.solve.stopping.gradient_tolerance = *options_.tolerance;
-    p.limits.time_limit = clock_.left(options_.time_limit);
+    p.limits.time_limit = command_.clock.left(options_.time_limit);
     return p;
 }
 
@@ -143,28 +138,18 @@ void shell_run::take(const session_result<hinge>& found, const mesh<triangle>& s
 
 void shell_run::refuse() const
 {
-    progress_.finish();
+    command_.finish();
     if (interrupted()) throw interrupted_run("there was no surface to write yet");
     throw no_valid_map(run_.reason.empty() ? "nothing was written" : run_.reason);
 }
 
 void shell_run::write(const io::surface_file& file, const mesh<triangle>& rest)
 {
-    tell("write");
     std::vector<io::file_to_write> files{
         {options_.output, [&](io::atomic_file& out) { io::write_moved(out, file, points_); }}};
-    if (!options_.stats.empty()) files.push_back({options_.stats, [&](io::atomic_file& out) { out.write(json()); }});
     if (!options_.picture.empty())
         files.push_back({options_.picture, [&](io::atomic_file& out) { out.write(picture(rest)); }});
-    total_ = clock_.now();
-    if (place_of_report_ && has_reader(place_of_report_))
-        files.push_back({place_of_report_, [&](io::atomic_file& out)
-                         {
-                             progress_.finish();
-                             out.write(text());
-                         }});
-    writing([&] { io::write_files(files); });
-    progress_.finish();
+    command_.write(std::move(files), *this, options_, [&](double total, double) { total_ = total; });
 }
 
 /// The surface at rest, and below as it is now, both seen from the same sides.
@@ -198,7 +183,7 @@ shell_run::edge_changes shell_run::changes(const mesh<triangle>& surface) const
     return found;
 }
 
-std::string shell_run::json() const
+nlohmann::ordered_json shell_run::json() const
 {
     nlohmann::ordered_json json;
     json["schema"] = "taut.deform/1";
@@ -231,7 +216,7 @@ std::string shell_run::json() const
     json["stages"] = to_json_array(run_.stages);
     json["peak_memory_bytes"] = peak_memory();
     json["notes"] = run_.notes;
-    return text_of(json);
+    return json;
 }
 
 std::string shell_run::text() const

@@ -11,9 +11,8 @@
 #include <taut/impl/map/session_result.hpp>
 #include <taut/impl/map/shell_params.hpp>
 
+#include "shared/command_run.hpp"
 #include "shared/exit_codes.hpp"
-#include "shared/progress.hpp"
-#include "shared/run_clock.hpp"
 #include "volume/shape_options.hpp"
 
 namespace taut::tools
@@ -23,8 +22,8 @@ namespace taut::tools
 class shell_run
 {
 public:
-    /// place_of_report: null if there is none. All else is referred to. Throws usage_error for options of volumes.
-    shell_run(const shape_options& options, run_clock clock, progress& progress, const char* place_of_report);
+    /// All is referred to. Throws usage_error for options of volumes.
+    shell_run(const shape_options& options, command_run& command);
 
     exit_code operator()();
 
@@ -35,7 +34,6 @@ private:
         double mean_square = 0, largest = 0; ///< root of the mean square of what is above or below 1; and its extreme
     };
 
-    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
     shell_params params(const thin_shell& shell, const constraints<hinge>& pins);
     void take(const session_result<hinge>& found, const mesh<triangle>& surface, const constraints<hinge>& pins);
     [[noreturn]] void refuse() const;
@@ -44,13 +42,15 @@ private:
     void write(const io::surface_file& file, const mesh<triangle>& rest);
     std::string picture(const mesh<triangle>& rest) const;
     edge_changes changes(const mesh<triangle>& surface) const;
-    std::string json() const;
+    nlohmann::ordered_json json() const;
     std::string text() const;
 
+    /// As command_run::write() asks for them.
+    friend nlohmann::ordered_json to_json(const shell_run& run, const shape_options&) { return run.json(); }
+    friend std::string text_of(const shell_run& run, const shape_options&) { return run.text(); }
+
     const shape_options& options_;
-    run_clock clock_;
-    progress& progress_;
-    const char* place_of_report_;
+    command_run& command_;
     std::vector<vec3> points_; ///< of the result; empty if there is none
     session_report run_;
     edge_changes edges_;

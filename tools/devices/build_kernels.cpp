@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/detail/signature.hpp>
+#include <taut/impl/compute/program/signature.hpp>
 #include <taut/impl/compute/record.hpp>
 #include <taut/impl/objective/element_hessian.hpp>
 #include <taut/impl/objective/mesh_levels.hpp>

@@ -68,8 +68,8 @@ double overlap_area(std::span<const std::array<idx, 3>> cells, std::span<const v
 std::optional<atlas_measures> measure_atlas(const io::surface_file& file, const io::cut_surface* cut)
 {
     const auto& m = file.surface;
-    const auto f = facets(m);
-    constexpr mesh_requirements required{
+    const auto f = impl::facets(m);
+    constexpr impl::mesh_requirements required{
         .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
     if (m.cells().empty() || !check(m, f, required).empty()) return std::nullopt;
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };

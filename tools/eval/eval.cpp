@@ -89,7 +89,7 @@ exit_code evaluate(const eval_options& options)
     const auto cut = io::cut_seams(file);
     auto a = cut ? assess(cut->surface, cut->uv) : assess(file.surface, file.vertex_texcoords());
     const auto& surface = cut ? cut->surface : file.surface;
-    take_polygons(a, find_convex_polygons(surface.cells(), polygons, surface.points()),
+    take_polygons(a, impl::find_convex_polygons(surface.cells(), polygons, surface.points()),
                   cut ? cut->uv : file.vertex_texcoords());
     const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
     a.vertices = file.surface.vertex_count();

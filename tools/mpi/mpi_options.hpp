@@ -16,7 +16,7 @@ namespace taut::tools::mpi
 struct mpi_options
 {
     shape_options shape;
-    dist::solver_params solver;
+    dist::impl::solver_params solver;
     std::string checkpoint;           ///< a mesh file for the shape so far; empty: none
     double checkpoint_interval = 600; ///< seconds
 };

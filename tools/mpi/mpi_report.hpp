@@ -19,7 +19,7 @@ namespace taut::tools::mpi
 /// What one process has to say of itself: numbers alone, as it is sent.
 struct process_numbers
 {
-    dist::phase_seconds seconds;
+    dist::impl::phase_seconds seconds;
     double processor = 0; ///< seconds of all its threads
     double read = 0, write = 0;
     std::uint64_t peak_memory = 0, device_bytes = 0;

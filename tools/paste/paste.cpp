@@ -20,8 +20,8 @@
 #include <nlohmann/json.hpp>
 
 #include <picture/render_picture.hpp>
-#include <taut/impl/edit/detail/surface_tree.hpp>
 #include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/surface/surface_tree.hpp>
 #include <taut/impl/edit/tessellate.hpp>
 #include <taut/impl/edit/write_feature_map.hpp>
 #include <taut/impl/edit/write_paste.hpp>
@@ -31,12 +31,11 @@
 #include "commands.hpp"
 #include "paste/face_list.hpp"
 #include "paste/paste_check.hpp"
+#include "shared/command_run.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
-#include "shared/report_files.hpp"
-#include "shared/run_clock.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
@@ -57,18 +56,25 @@ struct paste_options
     bool quiet = false;
 };
 
+/// Throws usage_error.
+void check(const paste_options& options)
+{
+    if (options.region.empty() == (options.at < 0 || !(options.radius > 0)))
+        throw usage_error("define the feature: --at V --radius R, or --region FILE, and not both");
+}
+
 /// One run of `taut paste`.
 class paste_run
 {
 public:
-    paste_run(const paste_options& options, run_clock clock, const char* place_of_report)
-        : options_(options), clock_(clock), place_of_report_(place_of_report)
+    paste_run(const paste_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
+        : options_(options), command_(options, files, launch)
     {
     }
 
     exit_code operator()()
     {
-        read_seconds_ = clock_.timed(
+        read_seconds_ = command_.clock.timed(
             [&]
             {
                 source_.emplace(io::read_surface_file(options_.source));
@@ -84,18 +90,18 @@ public:
                                                             : region_of_faces(surface, read_faces(options_.region)));
         region_ = part.region.vertices;
         std::optional<queue> q;
-        device_seconds_ = clock_.timed([&] { q = open_queue(options_.device, false); });
+        device_seconds_ = command_.clock.timed([&] { q = open_queue(options_.device, false); });
         device_ = q->device().name();
         paste_params params{.pose = options_.pose, .reach = options_.reach};
         params.pose.turn = options_.degrees * std::numbers::pi / 180;
         const double softness = std::exchange(params.pose.softness, 0);
-        paste_seconds_ = clock_.timed(
+        paste_seconds_ = command_.clock.timed(
             [&]
             {
                 paste_.emplace(*q, target_->surface, std::move(part), options_.onto, params);
                 soften(softness);
             });
-        if (!options_.map.empty() || options_.triangles > 0) map_seconds_ = clock_.timed([&] { draw_map(*q); });
+        if (!options_.map.empty() || options_.triangles > 0) map_seconds_ = command_.clock.timed([&] { draw_map(*q); });
         paste_->unfold(); // what is left of folds is told
         quality_ = require_sound(*paste_);
         meeting_ = paste_->self_intersections();
@@ -192,11 +198,7 @@ private:
             files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
         if (!options_.render.empty())
             files.push_back({options_.render, [&](io::atomic_file& file) { file.write(render()); }});
-        if (!options_.stats.empty())
-            files.push_back({options_.stats, [&](io::atomic_file& file) { file.write(text_of(json())); }});
-        if (place_of_report_ && has_reader(place_of_report_))
-            files.push_back({place_of_report_, [&](io::atomic_file& file) { file.write(text()); }});
-        writing([&] { io::write_files(files); });
+        command_.write(std::move(files), *this, options_, [&](double total, double) { total_seconds_ = total; });
     }
 
     /// The vertices of the feature in the result: its last ones.
@@ -302,7 +304,7 @@ private:
                            {"land", s.land},          {"seam", s.seam},
                            {"factor", s.factor},      {"transform", s.transform},
                            {"paste", paste_seconds_}, {"feature_map", map_seconds_},
-                           {"total", clock_.now()}};
+                           {"total", total_seconds_}};
         json["peak_memory_bytes"] = peak_memory();
         return json;
     }
@@ -329,35 +331,28 @@ private:
              {std::pair(&*source_, &options_.source), std::pair(&*target_, &options_.target)})
             for (const auto& note : file->notes) lines.add("note", *path + ": " + note);
         for (const auto& note : notes_of(quality_, meeting_)) lines.add("note", note);
-        lines.add("time", duration(clock_.now()) + ": read " + duration(read_seconds_) + ", device " +
+        lines.add("time", duration(total_seconds_) + ": read " + duration(read_seconds_) + ", device " +
                               duration(device_seconds_) + ", paste " + duration(paste_seconds_));
         lines.add_written({options_.output, options_.map, options_.picture, options_.render, options_.stats});
         return (std::ostringstream() << lines).str();
     }
 
     const paste_options& options_;
-    run_clock clock_;
-    const char* place_of_report_; ///< null: there is none
+    command_run command_;
     std::optional<io::surface_file> source_, target_;
     std::vector<idx> region_; ///< vertices of the source that the feature has
     std::optional<paste> paste_;
-    std::optional<feature_map> map_;
-    seam_quality quality_;
+    std::optional<impl::feature_map> map_;
+    impl::seam_quality quality_;
     std::vector<std::array<idx, 2>> meeting_; ///< triangles of the result, which did not in what it is made of
     std::string device_;
     double distance_ = 0; ///< of the tessellation from the feature, in units of the source
-    double read_seconds_ = 0, device_seconds_ = 0, paste_seconds_ = 0, map_seconds_ = 0;
-};
+    double read_seconds_ = 0, device_seconds_ = 0, paste_seconds_ = 0, map_seconds_ = 0, total_seconds_ = 0;
 
-exit_code run(const paste_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
-{
-    if (options.region.empty() == (options.at < 0 || !(options.radius > 0)))
-        throw usage_error("define the feature: --at V --radius R, or --region FILE, and not both");
-    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
-    const run_clock clock(launch);
-    limit_time(options.time_limit - clock.now());
-    return paste_run(options, clock, place_of_report)();
-}
+    /// As command_run::write() asks for them.
+    friend nlohmann::ordered_json to_json(const paste_run& run, const paste_options&) { return run.json(); }
+    friend std::string text_of(const paste_run& run, const paste_options&) { return run.text(); }
+};
 
 } // namespace
 
@@ -418,7 +413,7 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
     app.add_flag("-q,--quiet", options->quiet, "No report");
     app.footer("exit codes: 0 written; 2 usage; 3 unreadable input; 4 unsuitable input: no disk, or no place for it;\n"
                "  5 no device; 6 out of time; 9 device failure; 130 interrupted, 143 terminated");
-    return [options, launch](const outputs& files) { return run(*options, files, launch); };
+    return [options, launch](const outputs& files) { return paste_run(*options, files, launch)(); };
 }
 
 } // namespace taut::tools

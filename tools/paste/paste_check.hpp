@@ -17,7 +17,7 @@ namespace taut::tools
 
 /// Throws no_valid_map unless it is manifold and has the boundary of the target, and unsuitable_input where that is not
 /// manifold itself.
-inline seam_quality require_sound(const paste& p)
+inline impl::seam_quality require_sound(const paste& p)
 {
     const auto before = measure_seam(p.target(), 0, 0);
     if (!before.manifold)
@@ -31,7 +31,8 @@ inline seam_quality require_sound(const paste& p)
 }
 
 /// Notes about it. meeting: pairs of triangles, as paste::self_intersections() finds them
-inline std::vector<std::string> notes_of(const seam_quality& quality, const std::vector<std::array<idx, 2>>& meeting)
+inline std::vector<std::string> notes_of(const impl::seam_quality& quality,
+                                         const std::vector<std::array<idx, 2>>& meeting)
 {
     std::vector<std::string> notes;
     if (quality.folded > 0)

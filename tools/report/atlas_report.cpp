@@ -110,11 +110,13 @@ std::string atlas_report_html(const atlas_page& page)
 
     std::string text = data.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     std::string html(report_html);
-    constexpr std::string_view mark = "@data@";
-    const auto place = html.find(mark);
+    const auto put = [&html](std::string_view mark, std::string_view what)
+    { html.replace(html.find(mark), mark.size(), what); };
     for (std::size_t i = text.find('<'); i != text.npos; i = text.find('<', i))
         text.replace(i, 1, "\\u003c"); // no tag ends the script
-    return html.replace(place, mark.size(), text);
+    put("@scene@", scene_script);      // before the data, which may say so, too
+    put("@data@", text);
+    return html;
 }
 
 } // namespace taut::report

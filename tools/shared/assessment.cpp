@@ -32,7 +32,7 @@ std::vector<mesh<triangle>::cell> solid_cells(const mesh<triangle>& surface)
 
 void look_at_boundary(assessment& a, const mesh<triangle>& surface, std::span<const vec2> uv)
 {
-    const auto sides = facets(surface);
+    const auto sides = impl::facets(surface);
     if (!sides.manifold() || !sides.oriented())
     {
         a.notes.push_back("the boundary is not defined: " + std::string(sides.manifold()
@@ -45,12 +45,12 @@ void look_at_boundary(assessment& a, const mesh<triangle>& surface, std::span<co
     a.crossings = impl::count_boundary_crossings(loops, uv);
 }
 
-nlohmann::ordered_json to_json(const spread& s)
+nlohmann::ordered_json to_json(const impl::spread& s)
 {
     return {{"min", finite(s.min)}, {"max", finite(s.max)}, {"rms", finite(s.rms)}};
 }
 
-nlohmann::ordered_json to_json(const means& m, const char* by_measure)
+nlohmann::ordered_json to_json(const impl::means& m, const char* by_measure)
 {
     return {{by_measure, finite(m.measure)}, {"mean", finite(m.uniform)}};
 }
@@ -99,10 +99,10 @@ assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv)
     return a;
 }
 
-void take_polygons(assessment& a, const convex_polygons& polygons, std::span<const vec2> uv)
+void take_polygons(assessment& a, const impl::convex_polygons& polygons, std::span<const vec2> uv)
 {
     a.polygons = static_cast<std::size_t>(polygons.size());
-    for (const idx k : find_concave(polygons, uv)) a.concave.push_back(polygons.numbers[at(k)]);
+    for (const idx k : impl::find_concave(polygons, uv)) a.concave.push_back(polygons.numbers[at(k)]);
 }
 
 void add_polygons(nlohmann::ordered_json& json, const assessment& a)
@@ -177,7 +177,7 @@ void print(std::ostream& out, const quality& q, int dimension)
 {
     text_table energies;
     energies.add({"energy", dimension == 2 ? "by area" : "by volume", "mean", "isometry"});
-    const auto energy = [&](const char* name, const means& m, const char* least) {
+    const auto energy = [&](const char* name, const impl::means& m, const char* least) {
         energies.add({name, number(m.measure), number(m.uniform), least});
     };
     energy("isometric", q.isometric, dimension == 2 ? "4" : "2");
@@ -186,7 +186,7 @@ void print(std::ostream& out, const quality& q, int dimension)
 
     text_table spreads;
     spreads.add({"ratio", "min", "max", "rms - 1"});
-    const auto row = [&](const char* name, const spread& s) {
+    const auto row = [&](const char* name, const impl::spread& s) {
         spreads.add({name, number(s.min), number(s.max), number(s.rms)});
     };
     row("stretch L2", q.stretch_l2);

@@ -41,7 +41,7 @@ assessment assess(const mesh<triangle>& surface, std::span<const vec2> uv);
 assessment certified(const mesh<triangle>& surface, std::span<const vec2> uv);
 
 /// Takes in how many convex polygons there are, and which are not convex in the map.
-void take_polygons(assessment& a, const convex_polygons& polygons, std::span<const vec2> uv);
+void take_polygons(assessment& a, const impl::convex_polygons& polygons, std::span<const vec2> uv);
 
 /// The JSON members of that.
 void add_polygons(nlohmann::ordered_json& json, const assessment& a);

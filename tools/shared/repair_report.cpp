@@ -20,13 +20,13 @@ std::string describe_near_edges(std::span<const vec3> points, std::span<const st
                                 std::span<const idx> bodies)
 {
     const double within = usual_weld_tolerance(points, triangles);
-    const std::size_t edges = count_near_edges(points, triangles, within, bodies);
+    const std::size_t edges = impl::count_near_edges(points, triangles, within, bodies);
     if (edges == 0) return {};
     return count(edges, "open edge lies", "open edges lie") + " within " + number(within, 2) +
            " of each other; --weld " + number(within, 2) + " joins them";
 }
 
-nlohmann::ordered_json to_json(std::span<const repair_finding> findings)
+nlohmann::ordered_json to_json(std::span<const impl::repair_finding> findings)
 {
     auto json = nlohmann::ordered_json::array();
     for (const auto& f : findings)
@@ -38,7 +38,7 @@ nlohmann::ordered_json to_json(std::span<const repair_finding> findings)
     return json;
 }
 
-void describe(labelled_lines& lines, std::span<const repair_finding> findings)
+void describe(labelled_lines& lines, std::span<const impl::repair_finding> findings)
 {
     for (const auto& f : findings) lines.add("repair", f.message());
 }

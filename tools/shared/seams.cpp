@@ -21,7 +21,7 @@ namespace
 {
 
 /// Returns whether a fault is one of the pieces that a cut leaves, not of some triangles.
-bool is_of_pieces(const mesh_finding& f)
+bool is_of_pieces(const impl::mesh_finding& f)
 {
     return f.fault == mesh_fault::several_components || f.fault == mesh_fault::closed_surface ||
            f.fault == mesh_fault::several_boundaries || f.fault == mesh_fault::handles ||
@@ -29,11 +29,13 @@ bool is_of_pieces(const mesh_finding& f)
 }
 
 /// "6 charts with 7 boundary loops"
-std::string describe_pieces(const mesh<triangle>& cut, const facet_table& sides,
-                            const std::vector<mesh_finding>& faults)
+std::string describe_pieces(const mesh<triangle>& cut, const impl::facet_table& sides,
+                            const std::vector<impl::mesh_finding>& faults)
 {
-    const auto found = [&](mesh_fault fault)
-    { return std::find_if(faults.begin(), faults.end(), [&](const mesh_finding& f) { return f.fault == fault; }); };
+    const auto found = [&](mesh_fault fault) {
+        return std::find_if(faults.begin(), faults.end(),
+                            [&](const impl::mesh_finding& f) { return f.fault == fault; });
+    };
     const auto parts = found(mesh_fault::several_components);
     std::string text = count(parts == faults.end() ? 1 : parts->ids.size(), "chart", "charts");
     if (sides.oriented())
@@ -46,7 +48,7 @@ std::string describe_pieces(const mesh<triangle>& cut, const facet_table& sides,
 
 } // namespace
 
-std::optional<io::cut_surface> cut_open(const io::surface_file& file, mesh_requirements need, bool wanted)
+std::optional<io::cut_surface> cut_open(const io::surface_file& file, impl::mesh_requirements need, bool wanted)
 {
     need.referenced = false;
     if (file.texcoords.empty()) return std::nullopt;
@@ -60,7 +62,7 @@ std::optional<io::cut_surface> cut_open(const io::surface_file& file, mesh_requi
         if (wanted) throw;
     }
     if (!cut || (!wanted && check(file.surface, need).empty())) return std::nullopt;
-    const auto sides = facets(cut->surface);
+    const auto sides = impl::facets(cut->surface);
     const auto faults = check(cut->surface, sides, need);
     if (std::any_of(faults.begin(), faults.end(), is_of_pieces))
         throw unsuitable_input("cut open along the seams of its vt, the surface is " +
@@ -72,7 +74,7 @@ std::optional<io::cut_surface> cut_open(const io::surface_file& file, mesh_requi
 std::optional<io::cut_surface> cut_to_one_disk(const io::surface_file& file)
 {
     const auto& m = file.surface;
-    const auto f = facets(m);
+    const auto f = impl::facets(m);
     validate(m, f, {.referenced = false, .open = false, .one_boundary = false, .no_handles = false});
     if (check(m, f, {.referenced = false}).empty()) return std::nullopt;
     const auto made = cut_charts(m, f, cut_to_disk(m, f));

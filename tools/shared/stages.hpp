@@ -9,7 +9,7 @@ namespace taut::tools
 {
 
 /// A stage of a run as all commands report it.
-nlohmann::ordered_json to_json(const stage_report& stage);
+nlohmann::ordered_json to_json(const impl::stage_report& stage);
 
 template <class Stages>
 nlohmann::ordered_json to_json_array(const Stages& stages)

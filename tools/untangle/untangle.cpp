@@ -25,25 +25,17 @@ namespace
 
 exit_code run(const untangle_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
 {
-    check(options);
-    const char* place_of_report = options.quiet ? nullptr : files.place_of_report();
-
-    const run_clock clock(launch);
-    limit_time(options.time_limit - clock.now());
-    progress progress(progress_of(options.progress, options.quiet), std::cerr);
-    progress.update({.phase = "read", .seconds = clock.now()});
+    command_run command(options, files, launch);
+    command.tell("read");
     untangle_report report;
     const auto untangled =
         [&]<class Element>(untangle_problem<Element> problem, const volume_case<Element>* input = nullptr)
-    {
-        return untangle_run<Element>(options, clock, progress, std::move(report), place_of_report,
-                                     input)(std::move(problem));
-    };
+    { return untangle_run<Element>(options, command, std::move(report), input)(std::move(problem)); };
     if (names_volume(options.input))
     {
         std::optional<io::volume_file> file;
         report.seconds.read =
-            clock.timed([&] { file = read_volume_at_rest(options.input, options.rest, options.zone); });
+            command.clock.timed([&] { file = read_volume_at_rest(options.input, options.rest, options.zone); });
         require_name(options.output, *file);
         require_drawable(*file, {options.picture, options.cut});
         require_mesh(*file);
@@ -54,9 +46,9 @@ exit_code run(const untangle_options& options, const outputs& files, std::chrono
         throw io::io_error(options.input, "is a surface in space, of which no element is inverted; `taut deform` moves "
                                           "one, `taut unwrap` maps it to the plane");
     std::optional<decltype(io::impl::read_any_prob({}))> file;
-    report.seconds.read = clock.timed([&] { file = io::impl::read_any_prob(options.input); });
+    report.seconds.read = command.clock.timed([&] { file = io::impl::read_any_prob(options.input); });
     return std::visit(
-        [&]<class Element>(io::prob_file<Element>& read)
+        [&]<class Element>(io::impl::prob_file<Element>& read)
         {
             auto problem = make_untangle_problem(std::move(read));
             const auto as_file = file_of(problem);

@@ -30,7 +30,7 @@ io::layout_overlay overlay_of(const untangle_problem<triangle>& p, std::span<con
 std::vector<std::vector<idx>> outline_of(const mesh<triangle>& m)
 {
     std::vector<std::vector<idx>> edges;
-    for (const auto& [a, b] : boundary_facets(m)) edges.push_back({a, b});
+    for (const auto& [a, b] : impl::boundary_facets(m)) edges.push_back({a, b});
     return edges;
 }
 

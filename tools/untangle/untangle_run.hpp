@@ -20,13 +20,11 @@
 #include <taut/impl/untangle/untangle.hpp>
 #include <taut/impl/untangle/untangle_refined.hpp>
 
+#include "shared/command_run.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
-#include "shared/progress.hpp"
-#include "shared/report_files.hpp"
-#include "shared/run_clock.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
 #include "untangle/untangle_picture.hpp"
@@ -48,14 +46,9 @@ public:
     static constexpr int D = Element::dimension;
 
     /// input: the volume file that the problem is of, if it is of one.
-    untangle_run(const untangle_options& options, run_clock clock, progress& progress, untangle_report report,
-                 const char* place_of_report, const volume_case<Element>* input)
-        : options_(options),
-          input_(input),
-          clock_(clock),
-          progress_(progress),
-          report_(std::move(report)),
-          place_of_report_(place_of_report)
+    untangle_run(const untangle_options& options, command_run& command, untangle_report report,
+                 const volume_case<Element>* input)
+        : options_(options), input_(input), command_(command), report_(std::move(report))
     {
     }
 
@@ -91,8 +84,6 @@ public:
     }
 
 private:
-    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
-
     /// Certifies the coordinates as a reader of the file will have them.
     certificate certified(const std::vector<vec<D>>& x, volume_state& state) const
     {
@@ -112,9 +103,9 @@ private:
     /// Proofs need no device and no time, so they come first, and all of them are told.
     bool prove_infeasible()
     {
-        tell("check");
-        infeasibility found;
-        report_.seconds.check = clock_.timed([&] { found = find_infeasibility(*problem_); });
+        command_.tell("check");
+        impl::infeasibility found;
+        report_.seconds.check = command_.clock.timed([&] { found = find_infeasibility(*problem_); });
         for (const auto& warning : found.warnings) report_.notes.push_back(warning.message);
         if (!found) return false;
         std::string all;
@@ -155,26 +146,24 @@ private:
 
     void solve()
     {
-        tell("device");
+        command_.tell("device");
         std::optional<queue> q;
-        report_.seconds.device = clock_.timed([&] { q = open_queue(options_.device, false); });
+        report_.seconds.device = command_.clock.timed([&] { q = open_queue(options_.device, false); });
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         untangle_params params;
         params.limits.observer = [this](const taut::progress& p)
         {
-            if (p.iterate)
-                progress_.update(
-                    {.phase = "untangle", .step = p.iteration, .inverted = p.value, .seconds = clock_.now()});
+            if (p.iterate) command_.tell({.phase = "untangle", .step = p.iteration, .inverted = p.value});
             return !interrupted();
         };
         // The limit is one for the whole run: what reading took is gone.
-        params.limits.time_limit = clock_.left(options_.time_limit);
-        tell("untangle");
+        params.limits.time_limit = command_.clock.left(options_.time_limit);
+        command_.tell("untangle");
         keep(true); // the initial map, at least
         untangle_result<Element> result;
-        report_.seconds.solve = clock_.timed(
+        report_.seconds.solve = command_.clock.timed(
             [&]
             {
                 if (!options_.refine)
@@ -196,7 +185,7 @@ private:
     {
         const auto again = [&](const volume_case<Element>& edged, const std::vector<vec<D>>& from)
         {
-            params.limits.time_limit = clock_.left(options_.time_limit);
+            params.limits.time_limit = command_.clock.left(options_.time_limit);
             untangle_report told; // it was before
             auto problem = problem_of(edged, options_, told);
             problem.initial = from;
@@ -245,13 +234,6 @@ private:
 
     void write()
     {
-        tell("write");
-        const double begin = clock_.now();
-        const auto note_time = [&]
-        {
-            report_.seconds.total = clock_.now();
-            report_.seconds.write = report_.seconds.total - begin;
-        };
         std::vector<io::file_to_write> files;
         // A map with defects never gets the name that was asked for.
         if (!map_.empty()) report_.written = valid_ ? options_.output : name_of_invalid(options_.output);
@@ -271,7 +253,9 @@ private:
             files.push_back({options_.refined_map, [&](io::atomic_file& file) { file.write(table_of_parts(parts_)); }});
         if (drawn(options_.picture, report_.notes))
             files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
-        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
+        command_.write(std::move(files), report_, options_,
+                       [&](double total, double write)
+                       { report_.seconds.total = total, report_.seconds.write = write; });
         if (valid_) remove_invalid(options_.output);
     }
 
@@ -322,10 +306,8 @@ private:
     std::unique_ptr<refined_case<Element>> refined_;
     std::optional<io::volume_file> problem_file_; ///< of what is no volume file, where it is refined
     std::vector<idx> parts_;                      ///< of each element, that of the input; where it is refined
-    run_clock clock_;
-    progress& progress_;
+    command_run& command_;
     untangle_report report_;
-    const char* place_of_report_; ///< null: there is none
     std::optional<untangle_problem<Element>> problem_;
     std::vector<vec<D>> map_;
     std::vector<vec3> points_; ///< of the file, where there is one

@@ -18,15 +18,13 @@
 #include <taut/impl/measure/describe_defects.hpp>
 
 #include "commands.hpp"
+#include "shared/command_run.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/layout_file.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
 #include "shared/png.hpp"
-#include "shared/progress.hpp"
-#include "shared/report_files.hpp"
-#include "shared/run_clock.hpp"
 #include "shared/seams.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
@@ -55,19 +53,15 @@ class unwrap_run
 {
 public:
     unwrap_run(const unwrap_options& options, const outputs& files, std::chrono::steady_clock::time_point launch)
-        : options_(options),
-          clock_(launch),
-          progress_(progress_of(options.progress, options.quiet), std::cerr),
-          place_of_report_(options.quiet ? nullptr : files.place_of_report())
+        : options_(options), command_(options, files, launch)
     {
     }
 
     exit_code operator()()
     {
-        check(options_);
-        limit_time(options_.time_limit - clock_.now());
-        tell("read");
-        report_.seconds.read = clock_.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
+        command_.tell("read");
+        report_.seconds.read =
+            command_.clock.timed([&] { file_ = io::read_surface_file(options_.input, options_.format); });
         report_.notes = file_->notes;
         try
         {
@@ -84,8 +78,6 @@ public:
     }
 
 private:
-    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
-
     void cut()
     {
         cut_ = cut_open(*file_, {.one_boundary = !options_.holes}, options_.start == start_kind::uv);
@@ -127,34 +119,34 @@ private:
         {
             keep(p.usable);
             if (p.iterate)
-                progress_.update({.phase = p.level > 0 ? "coarse levels" : "optimize",
-                                  .step = p.iteration,
-                                  .most_steps = options_.iterations,
-                                  .energy = p.value,
-                                  .gradient = p.gradient,
-                                  .length = p.step,
-                                  .seconds = clock_.now()});
+                command_.tell({.phase = p.level > 0 ? "coarse levels" : "optimize",
+                               .step = p.iteration,
+                               .most_steps = options_.iterations,
+                               .energy = p.value,
+                               .gradient = p.gradient,
+                               .length = p.step});
             return !interrupted();
         };
-        tell("device");
+        command_.tell("device");
         std::optional<queue> q;
-        report_.seconds.queue = clock_.timed([&] { q = open_queue(options_, report_.notes); });
+        report_.seconds.queue = command_.clock.timed([&] { q = open_queue(options_, report_.notes); });
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         // The limit is one for the whole run: what reading took is gone.
-        params.limits.time_limit = clock_.left(options_.time_limit);
-        tell("start");
+        params.limits.time_limit = command_.clock.left(options_.time_limit);
+        command_.tell("start");
         auto result = taut::parameterize(*q, surface(), params);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
-        const auto polygons = find_convex_polygons(surface().cells(), file_->faces.of_triangles(), surface().points());
+        const auto polygons =
+            impl::find_convex_polygons(surface().cells(), file_->faces.of_triangles(), surface().points());
         make_convex(polygons);
-        tell("measure");
-        report_.seconds.quality = clock_.timed([&] { report_.assess(options_, params, surface(), uv_); });
+        command_.tell("measure");
+        report_.seconds.quality = command_.clock.timed([&] { report_.assess(options_, params, surface(), uv_); });
         take_polygons(report_.after, polygons, uv_);
         report_.after.vertices = file_->surface.vertex_count();
         report_.seam_vertices = cut_ ? cut_->seam_vertices : 0;
@@ -166,9 +158,9 @@ private:
 
     /// Moves vertices that are free so that polygons which are convex in space are so in the map, as far as that goes:
     /// whoever reads the file may cut them into other triangles.
-    void make_convex(const convex_polygons& polygons)
+    void make_convex(const impl::convex_polygons& polygons)
     {
-        if (find_concave(polygons, uv_).empty()) return;
+        if (impl::find_concave(polygons, uv_).empty()) return;
         std::vector<char> held(uv_.size(), 0);
         for (const auto& [v, pin] : pins_.pins()) held[static_cast<std::size_t>(v)] = 1;
         if (options_.boundary != boundary_kind::free)
@@ -176,7 +168,7 @@ private:
                 for (const idx v : loop) held[static_cast<std::size_t>(v)] = 1;
         impl::settle_piece(surface().cells(), polygons.corners, 0, surface().vertex_count(), uv_,
                            {.held = held, .apart = false});
-        if (const auto left = find_concave(polygons, uv_); !left.empty())
+        if (const auto left = impl::find_concave(polygons, uv_); !left.empty())
             report_.notes.push_back(count(left.size(), "polygon is", "polygons are") +
                                     " not convex in the map, though in space; cut along other diagonals, triangles of "
                                     "them turn over");
@@ -224,19 +216,17 @@ private:
 
     void write()
     {
-        tell("write");
-        const double begin = clock_.now();
-        const auto note_time = [&]
-        {
-            report_.seconds.total = clock_.now();
-            report_.seconds.write = report_.seconds.total - begin - report_.seconds.draw;
-        };
         std::vector<io::file_to_write> files{{options_.output, [&](io::atomic_file& file) { write_obj(file, uv_); }}};
         const auto draw = [&](std::string& path, auto image)
-        { add_picture(files, path, report_.notes, clock_, report_.seconds.draw, image); };
+        { add_picture(files, path, report_.notes, command_.clock, report_.seconds.draw, image); };
         draw(options_.picture, [this] { return picture(); });
         draw(options_.render, [this] { return render(); });
-        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
+        command_.write(std::move(files), report_, options_,
+                       [&](double total, double write)
+                       {
+                           report_.seconds.total = total;
+                           report_.seconds.write = write - report_.seconds.draw;
+                       });
         remove_invalid(options_.output);
     }
 
@@ -269,14 +259,12 @@ private:
     }
 
     unwrap_options options_;
-    run_clock clock_;
-    progress progress_;
+    command_run command_;
     std::optional<io::surface_file> file_;
     std::optional<io::cut_surface> cut_;
     constraints<triangle> pins_;
     std::vector<vec2> uv_;
     unwrap_report report_;
-    const char* place_of_report_; ///< null: there is none
 };
 
 } // namespace

@@ -15,12 +15,12 @@ namespace taut::tools
 namespace
 {
 
-means mean_energy(const any_energy& energy, const mesh<triangle>& surface, const ideal_elements<triangle>& ideal,
-                  std::span<const vec2> uv)
+impl::means mean_energy(const any_energy& energy, const mesh<triangle>& surface,
+                        const impl::ideal_elements<triangle>& ideal, std::span<const vec2> uv)
 {
-    return mean_over<triangle>(surface, ideal, uv,
-                               [&](const element<double, 2>& e)
-                               { return e.det > 0 ? energy(e) : std::numeric_limits<double>::infinity(); });
+    return impl::mean_over<triangle>(surface, ideal, uv,
+                                     [&](const element<double, 2>& e)
+                                     { return e.det > 0 ? energy(e) : std::numeric_limits<double>::infinity(); });
 }
 
 /// The stop in words.
@@ -33,7 +33,7 @@ std::string describe(const solve::report& r, const unwrap_options& options)
         {
         case stop::gradient:
             return "converged: relative gradient " + number(r.gradient_norm, 2) +
-                   " <= " + number(options.tolerance.value_or(solve::stopping_params{}.gradient_tolerance));
+                   " <= " + number(options.tolerance.value_or(solve::impl::stopping_params{}.gradient_tolerance));
         case stop::settled:
             return "converged: negligible decrease over five steps, relative gradient " + number(r.gradient_norm, 2);
         case stop::decrement:
@@ -90,7 +90,7 @@ void unwrap_report::assess(const unwrap_options& options, const parameterize_par
         after = certified(surface, uv);
         return;
     }
-    const ideal_elements<triangle> ideal(surface);
+    const impl::ideal_elements<triangle> ideal(surface);
     const bool by_area = options.weights == energy::weighting::measure;
     // Energies and distortion are those at the size of the surface.
     std::vector<vec2> sized(uv.begin(), uv.end());

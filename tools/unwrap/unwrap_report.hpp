@@ -30,7 +30,7 @@ struct unwrap_report
     std::size_t pins = 0, springs = 0; ///< vertices that have one
     std::size_t seam_vertices = 0;     ///< vertices of the file along which it was cut open
     map_report map;
-    means energy_end;                     ///< of the energy that was minimised, in double on the host
+    impl::means energy_end;               ///< of the energy that was minimised, in double on the host
     double energy_before = 0, energy = 0; ///< at the start and at the end, by the chosen weights
     assessment after;
     program_seconds seconds;

@@ -174,6 +174,7 @@ private:
         const auto target = text(request.target());
         if (target == "/") return respond(http::status::ok, service_.files.html, "text/html; charset=utf-8");
         if (target == "/page.js") return respond(http::status::ok, service_.files.script, "text/javascript");
+        if (target == "/scene.js") return respond(http::status::ok, service_.files.scene, "text/javascript");
         if (target == "/page.css") return respond(http::status::ok, service_.files.style, "text/css");
         respond(http::status::not_found, "not here\n", "text/plain");
     }

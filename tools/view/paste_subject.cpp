@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <taut/impl/edit/paste.hpp>
-#include <taut/impl/io/detail/obj_output.hpp>
 #include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/io/surface/obj_output.hpp>
 
 #include "paste/paste_check.hpp"
 #include "view/floats.hpp"

@@ -14,7 +14,7 @@ namespace taut::view
 /// Page served to browsers: three files, the same for everybody.
 struct page
 {
-    std::string_view html, script, style;
+    std::string_view html, script, style, scene;
 };
 
 /// Listens on 127.0.0.1 and serves one subject: one page writes, others look on. Everything runs in run(), on the

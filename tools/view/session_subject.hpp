@@ -49,7 +49,7 @@ untangle_problem<Element> tangled_star()
     std::vector<vec<D>> start;
     for (const vec3& p : points) start.emplace_back(p);
     start[0][0] = 1.5;
-    taut::impl::held_marks<D> held(points.size());
+    taut::impl::fixed_marks<D> held(points.size());
     for (std::size_t v = 1; v < points.size(); ++v) held[v] = held.every;
     return {mesh<Element>(std::move(points), std::move(cells)), std::move(start), std::move(held)};
 }
@@ -138,8 +138,10 @@ public:
         // stuck.
         constexpr int patience = 5;
         goes_on_ = goes_on;
-        const auto r =
-            session_->solve(idle_ < patience ? session_budget{.time = time} : session_budget{.steps = 25}).report;
+        const auto r = session_
+                           ->solve(idle_ < patience ? taut::impl::session_budget{.time = time}
+                                                    : taut::impl::session_budget{.steps = 25})
+                           .report;
         if (r.outcome != outcome::valid || !r.reason.empty()) throw error(r.reason);
         // Where a pin is in another one's way the energy creeps for ever.
         const bool gains = r.steps > 0 && (r.distance < 0.999 * distance_ || r.energy < (1 - 1e-5) * energy_);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "commands.hpp"
+#include "report/report_page.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
@@ -53,7 +54,8 @@ exit_code serve(const view_options& options)
     std::optional<view::server> server;
     try
     {
-        server.emplace(options.port, view::page{view::page_html, view::page_script, view::page_style},
+        server.emplace(options.port,
+                       view::page{view::page_html, view::page_script, view::page_style, report::scene_script},
                        encode(subject->model()));
     }
     catch (const std::exception& e)

@@ -71,7 +71,7 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
 template <class Element>
 void report_facets(check_report& report, const mesh<Element>& m)
 {
-    const mesh_requirements need{
+    const impl::mesh_requirements need{
         .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
     for (const auto& f : taut::check(m, need))
         if (f.fault != mesh_fault::degenerate_cell && f.fault != mesh_fault::inverted_cell)
@@ -79,12 +79,12 @@ void report_facets(check_report& report, const mesh<Element>& m)
 }
 
 /// Triangles on one side and a quad on the other are no common face: the cells come apart there.
-void report_open_quads(check_report& report, const io::cell_faces& sides)
+void report_open_quads(check_report& report, const io::impl::cell_faces& sides)
 {
     std::vector<std::array<idx, 3>> in_quads, triangles;
     for (std::size_t s = 0; s < sides.faces.size(); ++s)
     {
-        if (sides.twin[s] != io::cell_faces::boundary) continue;
+        if (sides.twin[s] != io::impl::cell_faces::boundary) continue;
         const auto corners = sides.faces[s].corners();
         for (std::size_t k = 0; k < (corners.size() == 4 ? 4 : 1); ++k)
         {
@@ -162,7 +162,7 @@ void report_cells(check_report& report, const volume_case<Element>& input)
     report.map.flipped = state.inverted.size();
     report.has_map = true;
     const auto components = impl::components(input.simplices()).first.size();
-    const auto boundary = boundary_facets(input.simplices(), input.owners()).size();
+    const auto boundary = impl::boundary_facets(input.simplices(), input.owners()).size();
     report.details["components"] = components;
     report.details["quality"] = shapes_json(state.shapes);
     report.lines.emplace_back("components", count(components));

@@ -82,7 +82,7 @@ volume_map measure(const volume_case<Element>& input, const std::vector<vec<Elem
     const double unit = impl::unit_scale(solid);
     auto scaled = x;
     for (auto& p : scaled) p *= unit;
-    ideal_elements<Element> ideal(solid, unit);
+    impl::ideal_elements<Element> ideal(solid, unit);
     const auto flips = certify<D>(solid.cells(), std::span<const vec<D>>(scaled), ideal.measure);
     for (std::size_t c = 0; c < weights.size(); ++c) ideal.measure[c] *= weights[c];
     map.quality = measure_quality<Element>(solid, ideal, scaled);
@@ -90,8 +90,8 @@ volume_map measure(const volume_case<Element>& input, const std::vector<vec<Elem
     map.least = std::numeric_limits<double>::infinity();
     for (std::size_t c = 0; c < weights.size(); ++c)
     {
-        const auto s =
-            singular_values<D>(shape_matrix<D>(solid.cells()[c], std::span<const vec<D>>(scaled), ideal.inverse[c]));
+        const auto s = impl::singular_values<D>(
+            impl::shape_matrix<D>(solid.cells()[c], std::span<const vec<D>>(scaled), ideal.inverse[c]));
         map.most = std::max(map.most, s.front());
         map.least = std::min(map.least, s.back());
     }

@@ -32,7 +32,7 @@ public:
     std::string note() const;
 
 private:
-    const io::volume_group& group(const std::string& name) const { return file_.find_group(name); }
+    const io::impl::volume_group& group(const std::string& name) const { return file_.find_group(name); }
     const vec3& point(idx v) const { return file_.points[static_cast<std::size_t>(v)]; }
     void transform(const std::string& name, std::size_t kind, const std::vector<double>& numbers);
     void take(idx v, const vec3& x, const std::string& name);

@@ -19,13 +19,11 @@
 #include <taut/impl/map/deform_refined.hpp>
 #include <taut/impl/map/smooth.hpp>
 
+#include "shared/command_run.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
-#include "shared/progress.hpp"
-#include "shared/report_files.hpp"
-#include "shared/run_clock.hpp"
 #include "shared/writing.hpp"
 #include "volume/deform_report.hpp"
 #include "volume/group_targets.hpp"
@@ -45,12 +43,11 @@ public:
     static constexpr int D = Element::dimension;
     using map = std::vector<vec<D>>;
 
-    /// place_of_report: null if there is none. All else is referred to.
-    shape_run(const shape_options& options, run_clock clock, progress& progress, const char* place_of_report,
-              const volume_case<Element>& input)
-        : options_(options), clock_(clock), progress_(progress), place_of_report_(place_of_report), input_(&input)
+    /// All is referred to.
+    shape_run(const shape_options& options, command_run& command, const volume_case<Element>& input)
+        : options_(options), command_(command), input_(&input)
     {
-        report_.seconds.read = clock_.now();
+        report_.seconds.read = command_.clock.now();
         report_.format = input.file().format;
         report_.cells = count_cells(input.file(), D);
         report_.element = input.element();
@@ -64,13 +61,13 @@ public:
     {
         prepare();
         if (options_.refine) require_refinable(input_->file());
-        tell("device");
+        command_.tell("device");
         std::optional<queue> q;
-        report_.seconds.device = clock_.timed([&] { q = open_queue(options_.device, false); });
+        report_.seconds.device = command_.clock.timed([&] { q = open_queue(options_.device, false); });
         report_.device = q->device().name();
-        tell(phase());
+        command_.tell(phase());
         report_.before = input_->look(input_->points());
-        report_.seconds.solve = clock_.timed([&] { solve(*q); });
+        report_.seconds.solve = command_.clock.timed([&] { solve(*q); });
         if (!valid_) refuse();
         write();
         return code_;
@@ -78,7 +75,6 @@ public:
 
 private:
     const char* phase() const { return options_.smoothing ? "smooth" : "deform"; }
-    void tell(std::string_view phase) { progress_.update({.phase = phase, .seconds = clock_.now()}); }
 
     void add_note(std::string note)
     {
@@ -118,7 +114,7 @@ private:
         const auto& file = input_->file();
         kept_facets_ = io::impl::kept_facets(file, options_.boundary == smooth_boundary::sliding);
         std::vector<char> outside(file.points.size(), 0), inside = outside;
-        for (const auto& facet : boundary_facets(input_->simplices(), input_->owners()))
+        for (const auto& facet : impl::boundary_facets(input_->simplices(), input_->owners()))
             for (const idx v : facet) outside[static_cast<std::size_t>(v)] = 1;
         for (const auto& facet : kept_facets_)
             for (const idx v : facet.corners()) inside[static_cast<std::size_t>(v)] = 1;
@@ -136,15 +132,11 @@ private:
         {
             keep(kept_ || p.usable);
             if (p.iterate)
-                progress_.update({.phase = phase(),
-                                  .step = p.iteration,
-                                  .energy = p.value,
-                                  .gradient = p.gradient,
-                                  .seconds = clock_.now()});
+                command_.tell({.phase = phase(), .step = p.iteration, .energy = p.value, .gradient = p.gradient});
             return !interrupted();
         };
         if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
-        params.limits.time_limit = clock_.left(options_.time_limit);
+        params.limits.time_limit = command_.clock.left(options_.time_limit);
         return params;
     }
 
@@ -277,7 +269,7 @@ private:
     [[noreturn]] void refuse() const
     {
         const std::string& why = report_.run.reason;
-        progress_.finish();
+        command_.finish();
         if (code_ == exit_code::infeasible) throw infeasible_problem(why);
         if (interrupted()) throw interrupted_run("there was no mesh to write yet");
         throw no_valid_map(why.empty() ? "nothing was written" : why);
@@ -285,15 +277,14 @@ private:
 
     void write()
     {
-        tell("write");
-        const auto note_time = [&] { report_.seconds.total = clock_.now(); };
         auto files = io::impl::volume_outputs(options_.output, input_->file(), points_);
         if (!options_.refined_map.empty())
             files.push_back({options_.refined_map, [&](io::atomic_file& file) { file.write(table_of_parts(parts_)); }});
         drawing_options drawing{options_.picture, options_.cut, options_.smoothing};
         if (drawn(drawing.path, report_.run.notes))
             files.push_back({drawing.path, [&](io::atomic_file& file) { file.write(picture(drawing)); }});
-        write_with_report(std::move(files), report_, options_, place_of_report_, progress_, note_time);
+        command_.write(std::move(files), report_, options_,
+                       [&](double total, double) { report_.seconds.total = total; });
     }
 
     std::string picture(const drawing_options& drawing) const
@@ -307,9 +298,7 @@ private:
     }
 
     const shape_options& options_;
-    run_clock clock_;
-    progress& progress_;
-    const char* place_of_report_;
+    command_run& command_;
     const volume_case<Element>* input_;
     std::unique_ptr<refined_case<Element>> refined_;
     std::vector<idx> parts_; ///< of each element, that of the input; where it is refined

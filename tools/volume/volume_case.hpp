@@ -41,7 +41,7 @@ struct volume_state
     certificate simplices;                       ///< of the corners of all cells, or of these themselves
     std::vector<idx> inverted;                   ///< cells with a corner that is not positive
     std::vector<idx> negative_inside, undecided; ///< cells with positive corners that Bezier bounds do not find valid
-    shape_quality shapes;
+    impl::shape_quality shapes;
 };
 
 /// Fills in negative_inside and undecided, by validity_of_cell(). x: one per point.
@@ -125,8 +125,8 @@ public:
             {
                 const mat<D> W = impl::ideal_of(simplices(), static_cast<idx>(c), unit);
                 if (!(Element::flatness(W) > impl::flattest)) return std::numeric_limits<double>::quiet_NaN();
-                const auto s =
-                    singular_values<D>(shape_matrix<D>(simplices().cells()[c], x, unit * impl::invert_upper(W)));
+                const auto s = impl::singular_values<D>(
+                    impl::shape_matrix<D>(simplices().cells()[c], x, unit * impl::invert_upper(W)));
                 return std::max(s.front(), 1 / s.back());
             });
     }

@@ -120,7 +120,7 @@ std::string draw_layouts(const io::volume_file& file, const std::vector<drawn_st
                                 }
                             });
     std::vector<std::vector<idx>> outline;
-    for (const auto& [a, b] : boundary_facets(mesh<triangle>(file.points, triangles))) outline.push_back({a, b});
+    for (const auto& [a, b] : impl::boundary_facets(mesh<triangle>(file.points, triangles))) outline.push_back({a, b});
     io::layout_style style;
     style.scale = options.by_shape ? "shape" : "distortion";
     style.formula = options.by_shape ? "1 / mean ratio" : "max(s1, 1/s2)";

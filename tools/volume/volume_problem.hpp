@@ -34,7 +34,7 @@ untangle_problem<Element> problem_of(const volume_case<Element>& input, const un
     if (!pins.springs().empty()) report.notes.push_back("springs take no part in untangling");
     const bool named = !options.fixed.empty() || !options.pins.empty();
     if (options.boundary == untangle_boundary::fixed || (options.boundary == untangle_boundary::automatic && !named))
-        for (const auto& facet : boundary_facets(m, input.owners()))
+        for (const auto& facet : impl::boundary_facets(m, input.owners()))
             for (const idx v : facet)
                 if (pins.held(v) == 0) pins.pin(v, x[static_cast<std::size_t>(v)]);
     auto problem = make_untangle_problem(m, std::move(x), pins);

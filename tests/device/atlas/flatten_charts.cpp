@@ -302,7 +302,7 @@ TEST_CASE("flatten_charts: large charts go to multigrid, with the same energies"
     queue q;
     const surfaces parts = {test::bumpy(test::sized(8, 4)), test::annulus(8), test::octahedron()};
     const auto charts = charts_of(parts);
-    const auto dense = flatten_charts(q, charts), large = flatten_charts(q, charts, {.largest = 0});
+    const auto dense = flatten_charts(q, charts), large = flatten_charts(q, charts, {.tuning = {.largest = 0}});
     for (std::size_t k = 0; k < 2; ++k)
     {
         CHECK_FALSE(dense.charts[k].multigrid);
@@ -321,6 +321,6 @@ TEST_CASE("flatten_charts: parameters are looked at")
     const auto charts = charts_of({test::single_triangle()});
     CHECK_THROWS_AS(flatten_charts(q, charts, {.tolerance = 0}), parameter_error);
     CHECK_THROWS_AS(flatten_charts(q, charts, {.max_iterations = -1}), parameter_error);
-    CHECK_THROWS_AS(flatten_charts(q, charts, {.largest = -1}), parameter_error);
+    CHECK_THROWS_AS(flatten_charts(q, charts, {.tuning = {.largest = -1}}), parameter_error);
     CHECK_THROWS_AS(flatten_charts(q, charts, {.limits = {.time_limit = std::chrono::seconds(-1)}}), parameter_error);
 }

@@ -29,7 +29,7 @@ mesh<triangle> grooved_ball(int n)
 template <class F>
 void for_seams(const mesh<triangle>& m, const atlas& made, F f)
 {
-    const auto cut = facets(made.charts.surface), whole = facets(m);
+    const auto cut = taut::impl::facets(made.charts.surface), whole = taut::impl::facets(m);
     for (idx s = 0; s < 3 * made.charts.surface.cell_count(); ++s)
     {
         if (cut.twin[std::size_t(s)] >= 0) continue;
@@ -116,7 +116,7 @@ TEST_CASE("seam wishes: seams are along edges that are bent")
     const auto m = test::moved(test::box(12), [](const vec3& x) { return x + 0.02 * vec3(std::sin(5 * x.y), 0, 0); });
     const auto on_edges = [&](const atlas& made)
     {
-        const auto f = facets(m);
+        const auto f = taut::impl::facets(m);
         double bent = 0;
         for_seams(m, made,
                   [&](idx s, idx, idx, double length)

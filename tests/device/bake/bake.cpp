@@ -257,8 +257,8 @@ TEST_CASE("bake_normals: normals point as before, in turned and mirrored charts"
     const auto from = tangent_frames(s.points, s.triangles, normals, s.old_uv),
                to = tangent_frames(s.points, s.triangles, normals, s.new_uv);
     // What a texture says at a place: the normal in space.
-    const auto shown = [&](const texture& image, const std::vector<corner_tangents>& tangents, std::size_t t,
-                           const vec3& w, const vec2& uv, double green)
+    const auto shown = [&](const texture& image, const std::vector<taut::impl::corner_tangents>& tangents,
+                           std::size_t t, const vec3& w, const vec2& uv, double green)
     {
         const auto stored = sample(image, uv);
         const vec3 n = two_atlases::at(normals[t], w);

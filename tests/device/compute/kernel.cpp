@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 #include <taut/impl/compute/quirks.hpp>
 
 #include "support/contains.hpp"

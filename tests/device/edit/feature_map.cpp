@@ -7,8 +7,8 @@
 
 #include <support/edit_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/edit/detail/surface_tree.hpp>
 #include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/surface/surface_tree.hpp>
 #include <taut/impl/edit/tessellate.hpp>
 #include <taut/impl/edit/write_feature_map.hpp>
 #include <taut/impl/mesh/validate.hpp>

@@ -20,7 +20,7 @@ using namespace taut;
 namespace
 {
 
-constexpr mesh_requirements closed{.open = false, .one_boundary = false};
+constexpr taut::impl::mesh_requirements closed{.open = false, .one_boundary = false};
 
 /// The mushroom with some of the plane around it.
 feature mushroom()

@@ -27,7 +27,7 @@ io::volume_file bar(idx n)
     for (idx k = 0; k <= 2 * n; ++k)
         for (idx j = 0; j <= n; ++j)
             for (idx i = 0; i <= n; ++i) file.points.push_back(vec3(i, j, k) / double(n));
-    io::cell_block cubes{io::cell_kind::hexahedron, {}}, wedges{io::cell_kind::wedge, {}};
+    io::impl::cell_block cubes{io::cell_kind::hexahedron, {}}, wedges{io::cell_kind::wedge, {}};
     for (idx k = 0; k < 2 * n; ++k)
         for (idx j = 0; j < n; ++j)
             for (idx i = 0; i < n; ++i)
@@ -52,7 +52,7 @@ io::volume_file sheet(idx n)
     file.dimension = 2;
     for (idx j = 0; j <= n; ++j)
         for (idx i = 0; i <= n; ++i) file.points.push_back(vec3(i, j, 0) / double(n));
-    io::cell_block quads{io::cell_kind::quad, {}}, triangles{io::cell_kind::triangle, {}};
+    io::impl::cell_block quads{io::cell_kind::quad, {}}, triangles{io::cell_kind::triangle, {}};
     for (idx j = 0; j < n; ++j)
         for (idx i = 0; i < n; ++i)
         {

@@ -278,7 +278,7 @@ TEST_CASE("deform: patch test, an affine map of the boundary is the affine map i
     queue q;
     const mat3 A(1.1, 0.1, 0.0, -0.2, 0.9, 0.1, 0.05, 0.1, 1.2);
     std::vector<idx> rim;
-    for (const auto& f : boundary_facets(m)) rim.insert(rim.end(), f.begin(), f.end());
+    for (const auto& f : taut::impl::boundary_facets(m)) rim.insert(rim.end(), f.begin(), f.end());
     std::sort(rim.begin(), rim.end());
     rim.erase(std::unique(rim.begin(), rim.end()), rim.end());
     for (const precision how : {precision::fp64, precision::mixed})

@@ -28,7 +28,7 @@ mesh<triangle> bumps()
                        });
 }
 
-int iterations(const std::vector<stage_report>& stages, const std::string& name, bool finest)
+int iterations(const std::vector<taut::impl::stage_report>& stages, const std::string& name, bool finest)
 {
     int sum = 0;
     for (const auto& s : stages)
@@ -54,7 +54,7 @@ TEST_CASE("stages: of a free map from coarse to fine, complete, with the energie
     CHECK(iterations(stages, "minimise", false) == coarse);
 
     std::size_t reinserted = 0, level = std::size_t(-1);
-    const stage_report* before = nullptr;
+    const taut::impl::stage_report* before = nullptr;
     for (const auto& s : stages)
     {
         if (s.stage != "reinsert" && s.stage != "minimise") continue;

@@ -14,7 +14,7 @@ namespace
 
 impl::chart_start start_of(const mesh<triangle>& m, std::vector<vec2> given = {})
 {
-    auto start = impl::chart_start::of(m, ideal_elements<triangle>(m), std::move(given));
+    auto start = impl::chart_start::of(m, taut::impl::ideal_elements<triangle>(m), std::move(given));
     CHECK(certify<2>(m.cells(), start.uv));
     return start;
 }
@@ -76,7 +76,7 @@ TEST_CASE("single_chart: is brought near 1 by a power of two")
     auto points = m.points();
     for (vec3& p : points) p = 3e-5 * p + vec3(100, 0, 0);
     const mesh<triangle> small(points, m.cells());
-    const auto f = facets(small);
+    const auto f = taut::impl::facets(small);
     const auto chart = impl::single_chart::of(cut_charts(small, f, std::vector<char>(f.twin.size(), 0)), 0);
     CHECK(chart.unit == 65536);
     CHECK(chart.surface.points()[8].x == doctest::Approx(3e-5 * 65536).epsilon(1e-6));

@@ -46,7 +46,7 @@ TEST_CASE("seam_factors: hollows, concave creases and weights, the same on both 
 {
     std::set<test::cube_cell> filled{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}; // an L
     const auto m = test::cubes(filled, 3);
-    const auto f = facets(m);
+    const auto f = taut::impl::facets(m);
     const auto open = impl::vertex_openness(m);
     const auto creased = impl::seam_factors(m, f, {.crease_angle = 60}, {});
     const auto hidden = impl::seam_factors(m, f, {.hide = 1}, open);

@@ -170,8 +170,8 @@ TEST_CASE("segment: a parameter outside its domain is named")
     };
     CHECK(field({.max_distortion = 4}) == "max_distortion");
     CHECK(field({.mean_distortion = 3}) == "mean_distortion");
-    CHECK(field({.cut_rounds = -1}) == "cut_rounds");
-    CHECK(field({.unite_rounds = 101}) == "unite_rounds");
+    CHECK(field({.tuning = {.cut_rounds = -1}}) == "cut_rounds");
+    CHECK(field({.tuning = {.unite_rounds = 101}}) == "unite_rounds");
 }
 
 TEST_CASE("segment: a ramp that winds over itself is cut where it does")
@@ -192,7 +192,7 @@ TEST_CASE("segment: a ramp that winds over itself is cut where it does")
             cells.push_back({a, a + 1, a + 4});
             cells.push_back({a, a + 4, a + 3});
         }
-    const auto ramp = check_segmentation(mesh<triangle>(points, cells), {.least_fill = 0});
+    const auto ramp = check_segmentation(mesh<triangle>(points, cells), {.tuning = {.least_fill = 0}});
     CHECK(ramp.charts.charts() <= 2 * turns);
 }
 

@@ -11,9 +11,9 @@
 
 #include <support/meshes.hpp>
 #include <support/rbf_points.hpp>
-#include <taut/impl/edit/detail/plane_triangulation.hpp>
-#include <taut/impl/edit/detail/polygon_filling.hpp>
-#include <taut/impl/edit/detail/surface_tree.hpp>
+#include <taut/impl/edit/surface/plane_triangulation.hpp>
+#include <taut/impl/edit/surface/polygon_filling.hpp>
+#include <taut/impl/edit/surface/surface_tree.hpp>
 
 using namespace taut;
 
@@ -49,7 +49,7 @@ double area_of(const std::vector<std::array<taut::idx, 3>>& cells, const std::ve
     double area = 0;
     for (const auto& t : cells)
     {
-        const auto o = orient(x[std::size_t(t[0])], x[std::size_t(t[1])], x[std::size_t(t[2])]);
+        const auto o = taut::impl::orient(x[std::size_t(t[0])], x[std::size_t(t[1])], x[std::size_t(t[2])]);
         CHECK(o.sign > 0);
         area += o.det / 2;
     }

@@ -28,7 +28,7 @@ std::vector<vec2> flat(const taut::mesh<taut::triangle>& m, double x = 1, double
 TEST_CASE("certify: a planar grid is its own injective map with det 1")
 {
     const auto m = taut::test::grid(7, 5);
-    const taut::ideal_elements<taut::triangle> ideal(m);
+    const taut::impl::ideal_elements<taut::triangle> ideal(m);
     const auto c = certify<2>(m.cells(), flat(m), ideal.measure);
     CHECK(static_cast<bool>(c));
     CHECK(c.elements == 70);
@@ -58,7 +58,7 @@ TEST_CASE("certify: a certificate takes over all that another one found")
 TEST_CASE("certify: a mirrored map has every element flipped, and ids stop at the limit")
 {
     const auto m = taut::test::grid(7, 5);
-    const taut::ideal_elements<taut::triangle> ideal(m);
+    const taut::impl::ideal_elements<taut::triangle> ideal(m);
     const auto c = certify<2>(m.cells(), flat(m, -1, 1), ideal.measure, 5);
     CHECK_FALSE(static_cast<bool>(c));
     CHECK(c.flipped == 70);
@@ -105,7 +105,7 @@ TEST_CASE("certify: a triangle with an area below rounding is judged by its exac
 TEST_CASE("certify: tetrahedra of a cube, as they are and turned inside out")
 {
     const auto m = taut::test::cube(3);
-    const taut::ideal_elements<taut::tetrahedron> ideal(m);
+    const taut::impl::ideal_elements<taut::tetrahedron> ideal(m);
     const auto c = certify<3>(m.cells(), m.points(), ideal.measure);
     CHECK(c.elements == 162);
     CHECK(c.flipped == 0);

@@ -33,7 +33,7 @@ void feed_gltf(const std::string& bytes)
         CHECK(!model.triangles.empty());
         std::vector<std::array<vec2, 3>> uv(model.triangles.size());
         for (std::size_t t = 0; t < uv.size(); ++t) uv[t] = {vec2(0, t), vec2(1, t), vec2(0, t % 3)};
-        CHECK(!io::gltf_files("out.glb", model, uv).empty());
+        CHECK(!io::impl::gltf_files("out.glb", model, uv).empty());
     }
     catch (const error& e)
     {
@@ -258,9 +258,9 @@ TEST_CASE("gltf: what a file asks for is bounded by its bytes")
         b.document["meshes"] = document::array({{{"primitives", document::array({p})}}});
         const auto model = io::impl::parse_gltf(b.glb());
         std::vector<std::array<vec2, 3>> uv(model.triangles.size());
-        io::gltf_files("out.glb", model, uv);
+        io::impl::gltf_files("out.glb", model, uv);
         for (std::size_t t = 0; t < uv.size(); ++t) uv[t][0].x = static_cast<double>(t);
-        CHECK_THROWS_WITH_AS(io::gltf_files("out.glb", model, uv), doctest::Contains("more new bytes than"),
+        CHECK_THROWS_WITH_AS(io::impl::gltf_files("out.glb", model, uv), doctest::Contains("more new bytes than"),
                              io::io_error);
     }
 }
@@ -278,7 +278,7 @@ TEST_CASE("gltf: many buffers, bufferViews and members take as long as they are 
     for (int i = 0; i < 200000; ++i) d["nodes"].push_back({{"mesh", 0}});
     const auto model = io::impl::parse_gltf(d.dump());
     const std::vector<std::array<vec2, 3>> uv(model.triangles.size());
-    CHECK(!io::gltf_files("out.glb", model, uv).empty());
+    CHECK(!io::impl::gltf_files("out.glb", model, uv).empty());
 }
 
 TEST_CASE("gltf: GLB whose lengths lie is refused with the byte")
@@ -301,12 +301,12 @@ TEST_CASE("gltf: wrong demands are refused by name")
 {
     const auto model = io::impl::parse_gltf(test::morphing_model(5).glb(), "x.glb");
     const std::vector<std::array<vec2, 3>> uv(model.triangles.size());
-    CHECK_THROWS_WITH_AS(io::gltf_files("out.obj", model, uv), doctest::Contains("out.obj"), parameter_error);
-    CHECK_THROWS_WITH_AS(io::gltf_files("out.glb", model, std::span(uv).first(3)),
+    CHECK_THROWS_WITH_AS(io::impl::gltf_files("out.obj", model, uv), doctest::Contains("out.obj"), parameter_error);
+    CHECK_THROWS_WITH_AS(io::impl::gltf_files("out.glb", model, std::span(uv).first(3)),
                          doctest::Contains("corner_uv: 3 for 50"), parameter_error);
-    CHECK_THROWS_WITH_AS(io::gltf_files("out.glb", model, uv, 1),
+    CHECK_THROWS_WITH_AS(io::impl::gltf_files("out.glb", model, uv, 1),
                          doctest::Contains("primitive 0 of mesh 0 has no TEXCOORD_0"), parameter_error);
-    CHECK_THROWS_AS(io::gltf_files("out.glb", model, uv, -1), parameter_error);
+    CHECK_THROWS_AS(io::impl::gltf_files("out.glb", model, uv, -1), parameter_error);
     CHECK(io::is_gltf("a/b.GLB"));
     CHECK(io::is_gltf("b.gltf"));
     CHECK(!io::is_gltf("b.glb.obj"));

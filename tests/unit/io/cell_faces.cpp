@@ -56,7 +56,7 @@ TEST_CASE("cell faces: a face with three cells is non_manifold")
     s.points.push_back({0.5, 0.4, 1});
     const auto sides =
         io::cell_faces_of(io::impl::parse_volume(test::medit_text(s), io::volume_format::medit, "a.mesh"));
-    CHECK(std::count(sides.twin.begin(), sides.twin.end(), io::cell_faces::non_manifold) == 3);
+    CHECK(std::count(sides.twin.begin(), sides.twin.end(), io::impl::cell_faces::non_manifold) == 3);
 }
 
 TEST_CASE("cell corners: the boundary of overlapping simplices is that of the cells")

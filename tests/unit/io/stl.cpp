@@ -9,9 +9,9 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/detail/surface_formats.hpp>
 #include <taut/impl/io/read_surface.hpp>
 #include <taut/impl/io/stl.hpp>
+#include <taut/impl/io/surface/surface_formats.hpp>
 #include <taut/impl/mesh/validate.hpp>
 
 namespace
@@ -85,7 +85,7 @@ TEST_CASE("stl: text and binary give the same closed surface, its vertices in th
         const auto file = parse_stl(bytes);
         REQUIRE(file.surface.cells().size() == triangles.size());
         CHECK(file.surface.vertex_count() == 144);
-        CHECK(facets(file.surface).oriented());
+        CHECK(taut::impl::facets(file.surface).oriented());
         taut::idx seen = 0;
         for (std::size_t c = 0; c < triangles.size(); ++c)
             for (std::size_t k = 0; k < 3; ++k)

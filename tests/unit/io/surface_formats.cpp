@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/detail/posix_file.hpp>
+#include <taut/impl/io/file/posix_file.hpp>
 #include <taut/impl/io/io_error.hpp>
 #include <taut/impl/io/pins.hpp>
 #include <taut/impl/io/read_surface.hpp>

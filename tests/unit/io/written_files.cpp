@@ -12,7 +12,7 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/detail/plain_file.hpp>
+#include <taut/impl/io/file/plain_file.hpp>
 #include <taut/impl/io/io_error.hpp>
 #include <taut/impl/io/read_file.hpp>
 #include <taut/impl/io/read_surface.hpp>

@@ -44,7 +44,8 @@ TEST_CASE_TEMPLATE_DEFINE("rigid motion: a turn and a shift are found again, and
         if (D == 3) wanted.axis = glm::normalize(vec3(1, 0.1 * seed, -0.4));
         std::vector<vec<D>> images, half;
         for (const auto& p : points) images.push_back(wanted(p));
-        const auto found = fit_rigid_motion(std::span<const vec<D>>(points), std::span<const vec<D>>(images));
+        const auto found =
+            taut::impl::fit_rigid_motion(std::span<const vec<D>>(points), std::span<const vec<D>>(images));
         CHECK(worst(found, points, images) < 1e-12);
         CHECK(found.angle == doctest::Approx(wanted.angle));
         for (const auto& p : points) CHECK(glm::distance(found(p, 0), p) < 1e-14);
@@ -68,8 +69,8 @@ TEST_CASE("rigid motion: two points and points on a line turn no more than they 
             for (const auto& p : line) images.push_back(turn.to + turn.turned(p - ends[0], angle));
             for (const std::size_t n : {2u, 3u})
             {
-                const auto found =
-                    fit_rigid_motion(std::span<const vec3>(line).first(n), std::span<const vec3>(images).first(n));
+                const auto found = taut::impl::fit_rigid_motion(std::span<const vec3>(line).first(n),
+                                                                std::span<const vec3>(images).first(n));
                 CHECK(std::abs(found.angle - angle) < 1e-5);
                 CHECK(worst(found, line, images) < 1e-6);
             }
@@ -90,12 +91,12 @@ TEST_CASE("rigid motion: half a turn, single points, points on a line and stretc
         line_images.push_back(half(line.back()));
     }
     const std::span<const vec3> from(points);
-    CHECK(worst(fit_rigid_motion(from, images), points, images) < 1e-7); // two quaternions are as good
-    CHECK(fit_rigid_motion(from, images).angle == doctest::Approx(std::numbers::pi));
-    CHECK(std::abs(fit_rigid_motion(from, stretched).axis.z) > 0.95);
-    CHECK(worst(fit_rigid_motion(std::span<const vec3>(line), line_images), line, line_images) < 1e-7);
+    CHECK(worst(taut::impl::fit_rigid_motion(from, images), points, images) < 1e-7); // two quaternions are as good
+    CHECK(taut::impl::fit_rigid_motion(from, images).angle == doctest::Approx(std::numbers::pi));
+    CHECK(std::abs(taut::impl::fit_rigid_motion(from, stretched).axis.z) > 0.95);
+    CHECK(worst(taut::impl::fit_rigid_motion(std::span<const vec3>(line), line_images), line, line_images) < 1e-7);
     const std::vector<vec3> one{{1, 2, 3}}, other{{4, 5, 6}};
-    const auto shift = fit_rigid_motion(std::span<const vec3>(one), std::span<const vec3>(other));
+    const auto shift = taut::impl::fit_rigid_motion(std::span<const vec3>(one), std::span<const vec3>(other));
     CHECK(shift.angle == 0);
     CHECK(glm::distance(shift(one[0], 0.5), vec3(2.5, 3.5, 4.5)) < 1e-15);
 }

@@ -88,7 +88,7 @@ TEST_CASE("boundary: where left has no meaning the error says so")
 TEST_CASE("boundary: the faces of a volume point out and close up")
 {
     const auto m = test::cube(3);
-    const auto faces = boundary_facets(m);
+    const auto faces = taut::impl::boundary_facets(m);
     CHECK(faces.size() == 6 * 9 * 2);
     double volume = 0; // divergence theorem
     for (const auto& f : faces)

@@ -46,7 +46,7 @@ void check_rotation(const mat<D>& S)
 TEST_CASE("ideal: at rest S is a rotation and the measures add up")
 {
     const auto disk = test::flat_disk(8);
-    const ideal_elements<triangle> flat(disk);
+    const taut::impl::ideal_elements<triangle> flat(disk);
     double area = 0;
     for (taut::idx c = 0; c < disk.cell_count(); ++c)
     {
@@ -56,7 +56,7 @@ TEST_CASE("ideal: at rest S is a rotation and the measures add up")
     CHECK(area == doctest::Approx(0.5 * 48 * std::sin(2 * std::numbers::pi / 48)).epsilon(1e-12)); // 48-gon
 
     const auto solid = test::cube(3);
-    const ideal_elements<tetrahedron> tets(solid);
+    const taut::impl::ideal_elements<tetrahedron> tets(solid);
     double volume = 0;
     for (taut::idx c = 0; c < solid.cell_count(); ++c)
     {
@@ -78,7 +78,7 @@ TEST_CASE("ideal: a triangle in space has the cotangent form of eq. 9 with the l
         const double E = 0.5 * glm::length(glm::cross(b - a, c - a));
         if (E < 1e-2) continue;
         const double lambda = 1 / std::sqrt(2 * E * (alpha + beta));
-        const ideal_elements<triangle> e(one(a, b, c));
+        const taut::impl::ideal_elements<triangle> e(one(a, b, c));
         CHECK(e.measure[0] == doctest::Approx(E).epsilon(1e-12));
         CHECK(e.inverse[0][0][0] == doctest::Approx(lambda).epsilon(1e-10));
         CHECK(e.inverse[0][1][0] == doctest::Approx(-lambda * alpha).epsilon(1e-10));
@@ -133,7 +133,7 @@ TEST_CASE("ideal: slivers have finite inverses with the right area, whichever co
             for (std::size_t k = 0; k < 3; ++k)
             {
                 const auto m = one(x[k], x[(k + 1) % 3], x[(k + 2) % 3]);
-                const ideal_elements<triangle> e(m);
+                const taut::impl::ideal_elements<triangle> e(m);
                 CHECK(e.measure[0] / (h / 2) == doctest::Approx(1.0).epsilon(1e-14));
                 const mat2 S = edges(m, 0) * e.inverse[0];
                 CHECK(std::isfinite(norm2(S)));
@@ -157,7 +157,7 @@ TEST_CASE("ideal: a needle anywhere in space keeps the digits of its area, which
         const auto area = static_cast<double>(0.5L * std::sqrt(glm::dot(n, n)));
         if (area < 1e-11) continue;
         for (std::size_t k = 0; k < 3; ++k)
-            CHECK(ideal_elements<triangle>(one(x[k], x[(k + 1) % 3], x[(k + 2) % 3])).measure[0] / area ==
+            CHECK(taut::impl::ideal_elements<triangle>(one(x[k], x[(k + 1) % 3], x[(k + 2) % 3])).measure[0] / area ==
                   doctest::Approx(1.0).epsilon(1e-12));
     }
 }
@@ -165,7 +165,7 @@ TEST_CASE("ideal: a needle anywhere in space keeps the digits of its area, which
 TEST_CASE("ideal: a scale far from 1 neither overflows nor vanishes")
 {
     const auto base = test::bumpy(4);
-    const ideal_elements<triangle> expected(base);
+    const taut::impl::ideal_elements<triangle> expected(base);
     for (const int exponent : {-1000, -600, -60, 60, 600, 1000})
     {
         const double s = std::ldexp(1.0, exponent);
@@ -173,7 +173,7 @@ TEST_CASE("ideal: a scale far from 1 neither overflows nor vanishes")
         for (vec3& p : points) p *= s;
         const mesh<triangle> m(points, base.cells());
         // Brought back to size by the caller, the result is that of the base mesh.
-        const ideal_elements<triangle> e(m, 1 / s);
+        const taut::impl::ideal_elements<triangle> e(m, 1 / s);
         for (std::size_t c = 0; c < e.measure.size(); ++c)
         {
             CHECK(e.inverse[c][1][0] == expected.inverse[c][1][0]);
@@ -186,7 +186,7 @@ TEST_CASE("ideal: a scale far from 1 neither overflows nor vanishes")
 TEST_CASE("ideal: a factor scales lengths, not shapes")
 {
     const auto m = test::cube(2);
-    const ideal_elements<tetrahedron> a(m), b(m, 4.0);
+    const taut::impl::ideal_elements<tetrahedron> a(m), b(m, 4.0);
     for (std::size_t c = 0; c < a.measure.size(); ++c)
     {
         CHECK(b.measure[c] == 64 * a.measure[c]);
@@ -200,7 +200,7 @@ TEST_CASE("ideal: cells without one are all named")
                               {{0, 1, 2}, {0, 1, 3}, {1, 2, 4}});
     try
     {
-        ideal_elements<triangle> e(flat);
+        taut::impl::ideal_elements<triangle> e(flat);
         FAIL("no error");
     }
     catch (const mesh_error& e)
@@ -212,7 +212,7 @@ TEST_CASE("ideal: cells without one are all named")
     std::swap(cells[3][0], cells[3][1]);
     try
     {
-        ideal_elements<tetrahedron> e(mesh<tetrahedron>(test::cube(1).points(), cells));
+        taut::impl::ideal_elements<tetrahedron> e(mesh<tetrahedron>(test::cube(1).points(), cells));
         FAIL("no error");
     }
     catch (const mesh_error& e)

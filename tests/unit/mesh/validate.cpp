@@ -16,7 +16,7 @@ using taut::test::contains;
 using namespace taut;
 using taut::idx;
 
-std::vector<mesh_fault> faults(const std::vector<mesh_finding>& found)
+std::vector<mesh_fault> faults(const std::vector<taut::impl::mesh_finding>& found)
 {
     std::vector<mesh_fault> r;
     for (const auto& f : found) r.push_back(f.fault);
@@ -25,7 +25,7 @@ std::vector<mesh_fault> faults(const std::vector<mesh_finding>& found)
 
 /// The only finding of check(); the test fails if there are more or none.
 template <class Element>
-mesh_finding only_finding(const mesh<Element>& m)
+taut::impl::mesh_finding only_finding(const mesh<Element>& m)
 {
     const auto found = check(m);
     REQUIRE(found.size() == 1);

@@ -14,9 +14,9 @@ namespace
 using taut::idx;
 using taut::vec2;
 
-taut::chart_overlaps overlaps_of(const support::chart_set& s, std::size_t most = 100'000)
+taut::impl::chart_overlaps overlaps_of(const support::chart_set& s, std::size_t most = 100'000)
 {
-    return taut::find_chart_overlaps(s.uv, s.cells, s.first_cell, s.first_vertex, most);
+    return taut::impl::find_chart_overlaps(s.uv, s.cells, s.first_cell, s.first_vertex, most);
 }
 
 /// A chart of one grid, moved by `shift`, without its middle if `hollow`.

@@ -36,7 +36,7 @@ double area_on_grid(const chart_set& s)
 {
     double area = 0;
     for (const auto& t : s.cells)
-        area += taut::orient(s.uv[std::size_t(t[0])], s.uv[std::size_t(t[1])], s.uv[std::size_t(t[2])]).det / 2;
+        area += taut::impl::orient(s.uv[std::size_t(t[0])], s.uv[std::size_t(t[1])], s.uv[std::size_t(t[2])]).det / 2;
     return area;
 }
 

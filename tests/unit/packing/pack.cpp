@@ -46,10 +46,10 @@ double area_of(const chart_set& s, std::span<const vec2> x)
 {
     double area = 0;
     for (const auto& [a, b, c] : s.cells)
-        area +=
-            taut::orient(x[static_cast<std::size_t>(a)], x[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(c)])
-                .det /
-            2;
+        area += taut::impl::orient(x[static_cast<std::size_t>(a)], x[static_cast<std::size_t>(b)],
+                                   x[static_cast<std::size_t>(c)])
+                    .det /
+                2;
     return area;
 }
 

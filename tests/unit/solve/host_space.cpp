@@ -6,7 +6,7 @@
 #include <array>
 #include <limits>
 
-using taut::solve::basic_host_space;
+using taut::solve::impl::basic_host_space;
 
 TEST_CASE_TEMPLATE("host space: its operations are those of linear algebra", T, float, double)
 {

@@ -14,12 +14,12 @@
 namespace
 {
 
-using taut::barycentric_params;
 using taut::barycentric_weights;
 using taut::boundary_shape;
 using taut::boundary_spacing;
 using taut::vec2;
 using taut::vec3;
+using taut::impl::barycentric_params;
 using surface = taut::mesh<taut::triangle>;
 
 std::vector<barycentric_params> all_params()
@@ -47,7 +47,7 @@ double signed_area(const std::vector<std::array<taut::idx, 3>>& cells, const std
 double rest_area(const surface& m)
 {
     double sum = 0;
-    for (const double a : taut::ideal_elements<taut::triangle>(m).measure) sum += a;
+    for (const double a : taut::impl::ideal_elements<taut::triangle>(m).measure) sum += a;
     return sum;
 }
 

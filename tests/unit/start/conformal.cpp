@@ -15,12 +15,12 @@ using surface = taut::mesh<taut::triangle>;
 /// Area mean of s1 / s2: 1 where all angles are kept.
 double angular(const surface& m, const std::vector<taut::vec2>& uv)
 {
-    const taut::ideal_elements<taut::triangle> ideal(m);
+    const taut::impl::ideal_elements<taut::triangle> ideal(m);
     double sum = 0, total = 0;
     for (std::size_t c = 0; c < m.cells().size(); ++c)
     {
         const auto e = taut::impl::mapped_element<taut::triangle>(m, ideal, uv, c);
-        const auto s = taut::singular_values<2>(e.S);
+        const auto s = taut::impl::singular_values<2>(e.S);
         sum += e.measure * s[0] / s[1];
         total += e.measure;
     }
@@ -34,12 +34,13 @@ TEST_CASE("conformal start: surfaces that unroll flat are mapped without distort
     for (const int n : {5, 30})
     {
         const auto m = taut::test::grid(n, n + 3);
-        CHECK(taut::impl::conformal_start(m, taut::facets(m)).distortion.measure == doctest::Approx(4).epsilon(1e-6));
+        CHECK(taut::impl::conformal_start(m, taut::impl::facets(m)).distortion.measure ==
+              doctest::Approx(4).epsilon(1e-6));
         // Rolled up to three quarters of a cylinder: the edges across are chords, still flat.
         auto points = m.points();
         for (auto& p : points) p = {std::cos(4.7 * p.x), p.y, std::sin(4.7 * p.x)};
         const surface rolled(points, m.cells());
-        const auto map = taut::impl::conformal_start(rolled, taut::facets(rolled));
+        const auto map = taut::impl::conformal_start(rolled, taut::impl::facets(rolled));
         CHECK(map.flips.flipped == 0);
         CHECK(map.distortion.measure == doctest::Approx(4).epsilon(1e-4));
     }
@@ -51,7 +52,7 @@ TEST_CASE("conformal start: angles of a cap are kept, the better the finer it is
     for (const int n : {6, 12, 24, 48})
     {
         const auto m = taut::test::cap(n, 2.2);
-        const auto map = taut::impl::conformal_start(m, taut::facets(m));
+        const auto map = taut::impl::conformal_start(m, taut::impl::facets(m));
         CHECK(map.flips.flipped == 0);
         const double now = angular(m, map.uv);
         CHECK(now - 1 < 0.8 * (before - 1));
@@ -66,7 +67,7 @@ TEST_CASE("conformal start: where it would flip triangles another map is taken")
     for (const auto& m : {taut::test::bumpy(60, 0.3), taut::test::long_tube(16, 30), taut::test::animal(24)})
     {
         const auto open = taut::boundary_loops(m).empty() ? taut::test::slit(m, 4) : m;
-        const auto map = taut::impl::conformal_start(open, taut::facets(open));
+        const auto map = taut::impl::conformal_start(open, taut::impl::facets(open));
         CHECK(map.flips.flipped == 0);
         CHECK(map.uv.size() == open.points().size());
         CHECK(std::isfinite(map.distortion.measure));
@@ -76,17 +77,17 @@ TEST_CASE("conformal start: where it would flip triangles another map is taken")
 TEST_CASE("conformal start: units do not matter, and what cannot be mapped is refused")
 {
     const auto m = taut::test::cap(10, 2);
-    const auto map = taut::impl::conformal_start(m, taut::facets(m));
+    const auto map = taut::impl::conformal_start(m, taut::impl::facets(m));
     auto points = m.points();
     for (auto& p : points) p *= 0x1p-200;
     const surface tiny(points, m.cells());
-    const auto other = taut::impl::conformal_start(tiny, taut::facets(tiny));
+    const auto other = taut::impl::conformal_start(tiny, taut::impl::facets(tiny));
     for (std::size_t v = 0; v < map.uv.size(); ++v) CHECK(other.uv[v] == 0x1p-200 * map.uv[v]);
 
     const auto closed = taut::test::octahedron();
-    CHECK_THROWS_AS(taut::impl::conformal_start(closed, taut::facets(closed)), taut::mesh_error);
-    CHECK_THROWS_AS(taut::impl::conformal_start(m, taut::facets(m), {.iterations = 0}), taut::parameter_error);
+    CHECK_THROWS_AS(taut::impl::conformal_start(closed, taut::impl::facets(closed)), taut::mesh_error);
+    CHECK_THROWS_AS(taut::impl::conformal_start(m, taut::impl::facets(m), {.iterations = 0}), taut::parameter_error);
     taut::impl::conformal_start_params fixed;
     fixed.fallback.coarse.fixed_boundary = true;
-    CHECK_THROWS_AS(taut::impl::conformal_start(m, taut::facets(m), fixed), taut::parameter_error);
+    CHECK_THROWS_AS(taut::impl::conformal_start(m, taut::impl::facets(m), fixed), taut::parameter_error);
 }

@@ -21,7 +21,7 @@ using surface = taut::mesh<taut::triangle>;
 void require_good(const taut::impl::start_map& map, const surface& m, double most)
 {
     REQUIRE(map.uv.size() == m.points().size());
-    const taut::ideal_elements<taut::triangle> ideal(m);
+    const taut::impl::ideal_elements<taut::triangle> ideal(m);
     taut::impl::start_map again;
     again.uv = map.uv;
     again.assess(m, ideal);

@@ -39,7 +39,7 @@ mat2 random_matrix(std::mt19937& random)
 
 TEST_CASE("regularized energy: chi is positive for every determinant and tends to it")
 {
-    const auto chi = [](double eps, double det) { return energy::regularized<2>{.eps = eps}.chi(det); };
+    const auto chi = [](double eps, double det) { return energy::impl::regularized<2>{.eps = eps}.chi(det); };
     for (const double det : {-1e8, -1.0, -1e-9, 0.0, 1e-9, 1.0})
         for (const double eps : {1e-6, 1e-2, 1.0}) CHECK(chi(eps, det) > 0);
     CHECK(chi(1e-12, 2.0) == doctest::Approx(2.0));
@@ -49,15 +49,15 @@ TEST_CASE("regularized energy: chi is positive for every determinant and tends t
 TEST_CASE("regularized energy: without eps it is a barrier, with it inverted triangles have a value")
 {
     const mat2 inverted(-1.0, 0.0, 0.0, 1.0);
-    CHECK(energy::regularized<2>{0, 1}(inverted) == std::numeric_limits<double>::infinity());
-    CHECK(std::isfinite(energy::regularized<2>{0.1, 1}(inverted)));
-    CHECK(energy::regularized<2>{0, 1}(mat2(1.0)) == doctest::Approx(4.0)); // |S|^2 + det + 1 / det
+    CHECK(energy::impl::regularized<2>{0, 1}(inverted) == std::numeric_limits<double>::infinity());
+    CHECK(std::isfinite(energy::impl::regularized<2>{0.1, 1}(inverted)));
+    CHECK(energy::impl::regularized<2>{0, 1}(mat2(1.0)) == doctest::Approx(4.0)); // |S|^2 + det + 1 / det
 }
 
 TEST_CASE("regularized energy: the derivatives are those of the value, inverted triangles included")
 {
     std::mt19937 random(1);
-    const energy::regularized<2> f{0.3, 0.7};
+    const energy::impl::regularized<2> f{0.3, 0.7};
     const double h = 1e-6;
     const auto gradient = [&](const mat2& S)
     {
@@ -110,7 +110,7 @@ TEST_CASE_TEMPLATE("regularized energy: the sum over a mesh has the gradient of 
     else
         cells = {{0, 1, 2, 3}};
     const mesh<Element> m(points, cells);
-    const held_marks<D> held(std::vector<std::uint8_t>{1, 0, 0, 0});
+    const fixed_marks<D> held(std::vector<std::uint8_t>{1, 0, 0, 0});
     impl::regularized_sum<Element> f(m, held);
     f.eps = 0.2;
     f.shapes = impl::rest_shapes(m, 1.0);

@@ -11,7 +11,7 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/exact/certify.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Summary of one chart of an atlas.
@@ -22,11 +22,6 @@ struct chart_summary
     double area = 0;                                         ///< area of its triangles in space
     double energy = std::numeric_limits<double>::infinity(); ///< area mean of the isometric energy, 4 at least
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Wall-clock seconds of the stages of one run.
 struct atlas_seconds
@@ -59,8 +54,8 @@ struct atlas_report
     std::string reason;                ///< why there is no valid atlas; empty if there is one
     std::vector<idx> reason_triangles; ///< those that `reason` names
     std::vector<std::string> notes;    ///< decisions of the library
-    std::vector<chart_summary> charts; ///< in the order of chart_mesh
-    certificate flips;                 ///< certificate of all triangles in the atlas, exact
+    std::vector<impl::chart_summary> charts; ///< in the order of chart_mesh
+    certificate flips;                       ///< certificate of all triangles in the atlas, exact
     std::size_t overlaps = 0;   ///< pairs of edges of chart borders that meet, and of charts one in the other; exact
     std::size_t polygons = 0;   ///< polygons of more than three corners that are convex in space
     std::size_t concave = 0;    ///< those of them that are not convex in the atlas; exact

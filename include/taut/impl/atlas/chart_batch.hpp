@@ -12,9 +12,9 @@
 
 #include <taut/impl/atlas/chart_start.hpp>
 #include <taut/impl/atlas/panel_order.hpp>
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/kernels/charts.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 #include <taut/impl/compute/quirks.hpp>
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/objective/element_hessian.hpp>

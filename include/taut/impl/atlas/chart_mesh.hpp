@@ -62,11 +62,6 @@ inline std::vector<idx> polygons_of(const facet_table& f, std::span<const char> 
     return polygon;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Marks the sides along which a map by corners is discontinuous: where two triangles have different texture
 /// coordinates for a common vertex, or non-finite ones.
 /// uv: a triple for each triangle of m, whose facets `f` are. Returns one flag per side.
@@ -84,11 +79,6 @@ inline std::vector<char> seams_of_map(const mesh<triangle>& m, const facet_table
     }
     return seam;
 }
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// seam: one flag per side of a surface, whose facets are `f`
 inline double length_of_seams(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
@@ -191,7 +181,7 @@ namespace taut
 /// vertex for each fan of its triangles between seams.
 /// m:    without non-manifold facets (mesh/facets.hpp), which are `f`
 /// seam: one flag per side, the same on both sides of an edge; sides without a twin need none
-inline chart_mesh cut_charts(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
+inline chart_mesh cut_charts(const mesh<triangle>& m, const impl::facet_table& f, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const std::size_t cells = m.cells().size();

@@ -261,7 +261,7 @@ namespace taut
 /// tips of limbs. Seams prefer creases. For cut_charts().
 ///
 /// m: an oriented manifold; f: its facets. Returns one flag per side. Time O(n log n).
-inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const facet_table& f)
+inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const impl::facet_table& f)
 {
     return impl::disk_cutting(m, f).run();
 }

@@ -12,6 +12,19 @@
 #include <taut/impl/compute/queue_counters.hpp>
 #include <taut/impl/core/observer.hpp>
 
+namespace taut::impl
+{
+
+/// Tuning of flatten_charts().
+struct flatten_tuning
+{
+    /// Maximum cost of the factorization of a chart in millions of multiplications; above, the chart is solved by
+    /// `parameterize`. The default corresponds to about 5,000 triangles, where both take as long.
+    double largest = 30;
+};
+
+} // namespace taut::impl
+
 namespace taut
 {
 
@@ -26,10 +39,6 @@ struct flatten_params
     /// Maximum number of Newton steps of a chart; 0 returns the starts.
     int max_iterations = 100;
 
-    /// Maximum cost of the factorization of a chart in millions of multiplications; above, the chart is solved by
-    /// `parameterize`. The default corresponds to about 5,000 triangles, where both take as long.
-    double largest = 30;
-
     /// Initial map, one point per vertex of the chart mesh in any place and in units of the surface, or empty. Charts
     /// for which it is not valid get another start.
     std::span<const vec2> initial = {};
@@ -37,6 +46,9 @@ struct flatten_params
     /// Limits of the whole call. The observer is asked after each step: progress::iteration counts finished charts,
     /// progress::value is the mean energy of the current maps.
     run_limits limits = {};
+
+    /// Not for users: what tests and measurements set.
+    impl::flatten_tuning tuning = {};
 
     /// Throws parameter_error that names the field.
     void validate() const;
@@ -82,11 +94,6 @@ struct flatten_seconds
     double certify = 0;
 };
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Result of flatten_charts(): one map for all charts, and a report for each.
 struct flattened_charts
 {
@@ -96,6 +103,11 @@ struct flattened_charts
     queue_counters counters; ///< launches, host waits and bytes
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Maps every chart to the plane with a free boundary and the least isometric distortion (energy::isometric by area),
 /// without flipping a triangle: all charts at once on the device. Each has its own steps, line search and stopping
 /// test, and the number of launches does not depend on the number of charts. Charts lie anywhere in the plane and may
@@ -104,7 +116,7 @@ struct flattened_charts
 /// A chart is a disk or has holes; closed charts, those with handles and those with a flat triangle have no map. Its
 /// map does not depend on other charts. Every map that is returned as valid is certified in exact arithmetic.
 /// Throws parameter_error, device_error, build_error.
-flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params = {});
+impl::flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params = {});
 
 } // namespace taut
 

@@ -22,7 +22,7 @@ void flatten_params::validate() const
 {
     if (!(tolerance >= 1e-12 && tolerance <= 1)) throw parameter_error("tolerance", "must be 1e-12 to 1");
     if (max_iterations < 0) throw parameter_error("max_iterations", "must not be negative");
-    if (!(largest >= 0)) throw parameter_error("largest", "must not be negative");
+    if (!(tuning.largest >= 0)) throw parameter_error("largest", "must not be negative");
     limits.validate();
 }
 
@@ -106,7 +106,7 @@ private:
                      chart_report& report = result_.charts[k];
                      w.chart = single_chart::of(charts_, static_cast<idx>(k));
                      w.profile.emplace(vertex_neighbours(w.chart->surface));
-                     report.multigrid = w.profile->work > 1e6 * params_.largest;
+                     report.multigrid = w.profile->work > 1e6 * params_.tuning.largest;
                      if (report.multigrid) return;
                      try
                      {
@@ -292,13 +292,13 @@ private:
 namespace taut
 {
 
-flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params)
+impl::flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params)
 {
     params.validate();
     if (!params.initial.empty() && params.initial.size() != charts.surface.points().size())
         throw parameter_error("initial", "must have one point a vertex of the chart mesh, or none");
-    const queue_counters before = q.counters();
-    flattened_charts result = impl::flattening(q, charts, params).run();
+    const impl::queue_counters before = q.counters();
+    impl::flattened_charts result = impl::flattening(q, charts, params).run();
     result.counters = impl::counted_since(before, q.counters());
     return result;
 }

@@ -36,9 +36,19 @@ struct atlas
     explicit operator bool() const { return report.reason.empty(); }
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Requirements of make_atlas() on a surface.
 inline constexpr mesh_requirements atlas_requirements{
     .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
+
+} // namespace taut::impl
+
+namespace taut
+{
 
 /// Makes an atlas of any surface: cuts it into charts that can be flattened within a bound of distortion, flattens all
 /// of them at once on the queue's device, packs them, and certifies the result in exact arithmetic.

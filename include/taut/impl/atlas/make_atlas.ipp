@@ -454,8 +454,8 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
         static_cast<std::ptrdiff_t>(params.pinned.size()))
         return whole.run();
     impl::pinned_charts::require(m, params);
-    const auto f = facets(m);
-    validate(m, f, atlas_requirements);
+    const auto f = impl::facets(m);
+    validate(m, f, impl::atlas_requirements);
     const impl::pinned_charts pins(m, f, params);
     std::vector<char> seams, together;
     const atlas_params of_rest = pins.of_rest(seams, together);

@@ -13,6 +13,34 @@
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/error.hpp>
 
+namespace taut::impl
+{
+
+/// Tuning of segmentation.
+struct segment_tuning
+{
+    /// Minimum fill of the convex hull in the plane, 0 to 1: charts of more than a 200th of the area below it are cut,
+    /// as branching charts pack badly.
+    double least_fill = 0.82;
+
+    /// Maximum number of rounds of cuts, 0 to 100. In each, the new charts are flattened.
+    int cut_rounds = 8;
+
+    /// Maximum number of rounds of unions of neighbours, 0 to 100. In each, most of the surface is flattened again.
+    /// Small charts are tried once more, unless it is 0.
+    int unite_rounds = 1;
+
+    /// Throws parameter_error with the name of a field outside its domain.
+    void validate() const
+    {
+        if (!(least_fill >= 0 && least_fill <= 1)) throw parameter_error("least_fill", "must be 0 to 1");
+        if (cut_rounds < 0 || cut_rounds > 100) throw parameter_error("cut_rounds", "must be 0 to 100");
+        if (unite_rounds < 0 || unite_rounds > 100) throw parameter_error("unite_rounds", "must be 0 to 100");
+    }
+};
+
+} // namespace taut::impl
+
 namespace taut
 {
 
@@ -35,30 +63,20 @@ struct segment_params
     /// What a unit of length of a seam counts along each side, the same on both sides of an edge; or empty: 1.
     std::span<const double> weights = {};
 
-    /// Minimum fill of the convex hull in the plane, 0 to 1: charts of more than a 200th of the area below it are cut,
-    /// as branching charts pack badly.
-    double least_fill = 0.82;
-
-    /// Maximum number of rounds of cuts, 0 to 100. In each, the new charts are flattened.
-    int cut_rounds = 8;
-
-    /// Maximum number of rounds of unions of neighbours, 0 to 100. In each, most of the surface is flattened again.
-    /// Small charts are tried once more, unless it is 0.
-    int unite_rounds = 1;
-
     /// Limits of the whole call, after which the current charts are returned, or pieces without maps. The observer is
     /// asked before each round and within it.
     run_limits limits = {};
+
+    /// Not for users: what tests and measurements set.
+    impl::segment_tuning tuning = {};
 
     /// Throws parameter_error with the name of a field outside its domain.
     void validate() const
     {
         if (!(max_distortion > 4)) throw parameter_error("max_distortion", "must be above 4, that of no distortion");
         if (!(mean_distortion > 4)) throw parameter_error("mean_distortion", "must be above 4, that of no distortion");
-        if (!(least_fill >= 0 && least_fill <= 1)) throw parameter_error("least_fill", "must be 0 to 1");
-        if (cut_rounds < 0 || cut_rounds > 100) throw parameter_error("cut_rounds", "must be 0 to 100");
-        if (unite_rounds < 0 || unite_rounds > 100) throw parameter_error("unite_rounds", "must be 0 to 100");
         limits.validate();
+        tuning.validate();
     }
 };
 
@@ -177,7 +195,7 @@ namespace taut
 ///    with their maps.
 /// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).
 template <class Flatten>
-segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& flatten,
+segmentation segment(const mesh<triangle>& m, const impl::facet_table& f, Flatten&& flatten,
                      const segment_params& params = {})
 {
     return impl::cut_apart(m, f, impl::segment_surface(m, f, impl::maps_by(flatten), params), params);

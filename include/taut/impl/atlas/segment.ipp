@@ -40,15 +40,15 @@ public:
         std::vector<idx> all(chart_.size());
         std::iota(all.begin(), all.end(), idx(0));
         renew(all);
-        for (int round = 0; round < params_.cut_rounds && proceed(round); ++round)
+        for (int round = 0; round < params_.tuning.cut_rounds && proceed(round); ++round)
         {
             const bool sewn = unite_round(unions::slits);
             if (!cut_round() && !sewn) break;
         }
-        for (int round = 0; round < params_.unite_rounds && proceed(round) && unite_round(unions::all); ++round)
+        for (int round = 0; round < params_.tuning.unite_rounds && proceed(round) && unite_round(unions::all); ++round)
         {
         }
-        if (params_.unite_rounds > 0 && proceed(params_.unite_rounds)) unite_round(unions::small);
+        if (params_.tuning.unite_rounds > 0 && proceed(params_.tuning.unite_rounds)) unite_round(unions::small);
         settle();
         return result();
     }
@@ -188,7 +188,7 @@ private:
         for (const idx k : order)
         {
             const record& r = charts_[u(k)];
-            const bool ragged = r.shape.fill < params_.least_fill && r.area > total_area_ / 200;
+            const bool ragged = r.shape.fill < params_.tuning.least_fill && r.area > total_area_ / 200;
             if (r.energy <= params_.max_distortion && !r.shape.crosses && !ragged && excess <= allowed()) continue;
             charts_[u(k)].strained = r.energy > params_.max_distortion || ragged || excess > allowed();
             chosen.push_back(k);

@@ -318,8 +318,8 @@ private:
         std::vector<double> factors(c_.factors_.empty() ? 0 : f.twin.size());
         for (std::size_t s = 0; s < factors.size(); ++s) factors[s] = c_.factors_[part.origin(s)];
         params.weights = factors;
-        params.least_fill = 0;
-        params.unite_rounds = std::max(params.unite_rounds, 6); // few charts, whatever they are like
+        params.tuning.least_fill = 0;
+        params.tuning.unite_rounds = std::max(params.tuning.unite_rounds, 6); // few charts, whatever they are like
         params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
         params.limits = {std::max(c_.budget_.left(), budget::seconds(1e-6)), c_.asking("charts")};
         const auto maps = [this](const chart_mesh& charts, std::span<const vec2> start)

@@ -42,6 +42,11 @@ private:
     bool edges_;
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Plane of symmetry of a surface, vertex by vertex and polygon by polygon.
 struct mirror_symmetry
 {
@@ -67,12 +72,17 @@ struct mirror_symmetry
     }
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Finds a plane in which a surface is its own mirror image.
 /// together:  diagonals of polygons, as in segment_params: they need no images
 /// tolerance: maximum distance of a vertex from the image of another one, relative to the diagonal of the box
 /// Throws symmetry_error if there is none.
-mirror_symmetry find_symmetry(const mesh<triangle>& m, const facet_table& f, std::span<const char> together = {},
-                              double tolerance = 1e-4);
+impl::mirror_symmetry find_symmetry(const mesh<triangle>& m, const impl::facet_table& f,
+                                    std::span<const char> together = {}, double tolerance = 1e-4);
 
 } // namespace taut
 

@@ -37,6 +37,11 @@ baked_texture bake(queue& q, const texture& old, std::span<const std::array<vec2
 baked_texture bake_corners(queue& q, std::span<const float> values, idx channels,
                            std::span<const std::array<vec2, 3>> to, const bake_params& params = {});
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Normals of the corners of a surface, and the tangents of both atlases.
 struct bake_frames
 {
@@ -44,9 +49,14 @@ struct bake_frames
     std::span<const corner_tangents> from, to;    ///< as tangent_frames() makes them
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// The same for normals in tangent space: three channels (and alpha), (x + 1) / 2 of each coordinate along tangent,
 /// bitangent and normal. They are turned from the tangents of the old atlas to those of the new one.
-baked_texture bake_normals(queue& q, const texture& old, const bake_frames& frames,
+baked_texture bake_normals(queue& q, const texture& old, const impl::bake_frames& frames,
                            std::span<const std::array<vec2, 3>> from, std::span<const std::array<vec2, 3>> to,
                            const bake_params& params = {});
 

@@ -15,9 +15,9 @@
 #include <taut/impl/bake/fill_gutters.hpp>
 #include <taut/impl/bake/triangle_tiles.hpp>
 #include <taut/impl/compute/buffer.hpp>
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/kernels/bake.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 
 namespace taut::impl
 {
@@ -238,7 +238,7 @@ baked_texture bake_corners(queue& q, std::span<const float> values, idx channels
     return impl::bake_any(q, {.values = values, .channels = channels}, to, params);
 }
 
-baked_texture bake_normals(queue& q, const texture& old, const bake_frames& frames,
+baked_texture bake_normals(queue& q, const texture& old, const impl::bake_frames& frames,
                            std::span<const std::array<vec2, 3>> from, std::span<const std::array<vec2, 3>> to,
                            const bake_params& params)
 {

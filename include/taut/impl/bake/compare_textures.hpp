@@ -10,7 +10,7 @@
 
 #include <taut/impl/bake/texture.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Difference of two textures of one size.
@@ -22,10 +22,15 @@ struct texture_difference
     std::size_t texels = 0; ///< compared
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Compares two textures, such as one and what came back of it through another atlas. compared: not 0 for the texels
 /// that count, or empty for all. Throws parameter_error if sizes differ.
-inline texture_difference compare_textures(const texture& a, const texture& b,
-                                           std::span<const std::uint8_t> compared = {})
+inline impl::texture_difference compare_textures(const texture& a, const texture& b,
+                                                 std::span<const std::uint8_t> compared = {})
 {
     a.validate("a");
     b.validate("b");
@@ -34,7 +39,7 @@ inline texture_difference compare_textures(const texture& a, const texture& b,
     const std::size_t count = a.size() / static_cast<std::size_t>(a.channels);
     if (!compared.empty() && compared.size() != count)
         throw parameter_error("compared", "has another number of texels than the textures; give one for each");
-    texture_difference result{{a.width, a.height, a.channels, std::vector<float>(a.size(), 0.0f)}, 0, 0, 0};
+    impl::texture_difference result{{a.width, a.height, a.channels, std::vector<float>(a.size(), 0.0f)}, 0, 0, 0};
     const auto channels = static_cast<std::size_t>(a.channels);
     double squares = 0;
     for (std::size_t n = 0; n < count; ++n)

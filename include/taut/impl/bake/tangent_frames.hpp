@@ -13,17 +13,12 @@
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/core/types.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Tangent of each corner of a triangle: direction in which u grows, and in w the side of the bitangent, in which v
 /// grows: it is w * cross(normal, tangent), w = 1 or -1 where the map is mirrored.
 using corner_tangents = std::array<vec<4>, 3>;
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Angle at corner k of a triangle.
 inline double corner_angle(const std::array<vec3, 3>& x, std::size_t k)
@@ -83,10 +78,10 @@ inline std::vector<std::array<vec3, 3>> smooth_normals(std::span<const vec3> poi
 /// normals: unit vectors, one per corner
 /// uv: one per corner, v upwards
 /// Throws parameter_error for wrong numbers of these.
-inline std::vector<corner_tangents> tangent_frames(std::span<const vec3> points,
-                                                   std::span<const std::array<idx, 3>> triangles,
-                                                   std::span<const std::array<vec3, 3>> normals,
-                                                   std::span<const std::array<vec2, 3>> uv)
+inline std::vector<impl::corner_tangents> tangent_frames(std::span<const vec3> points,
+                                                         std::span<const std::array<idx, 3>> triangles,
+                                                         std::span<const std::array<vec3, 3>> normals,
+                                                         std::span<const std::array<vec2, 3>> uv)
 {
     if (normals.size() != triangles.size()) throw parameter_error("normals", "give three per triangle, one per corner");
     if (uv.size() != triangles.size())
@@ -114,7 +109,7 @@ inline std::vector<corner_tangents> tangent_frames(std::span<const vec3> points,
             sums[key_of(f, k, mirrored[f] != 0)] += impl::corner_angle(x, k) * impl::normalised(u - glm::dot(n, u) * n);
         }
     }
-    std::vector<corner_tangents> tangents(triangles.size());
+    std::vector<impl::corner_tangents> tangents(triangles.size());
     for (std::size_t f = 0; f < triangles.size(); ++f)
         for (std::size_t k = 0; k < 3; ++k)
         {

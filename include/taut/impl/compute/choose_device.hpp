@@ -18,17 +18,17 @@ struct device_requirements
     std::uint64_t memory = 0; ///< bytes of global memory
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// A device of this machine, and why it cannot serve; an empty refusal means that it can.
 struct listed_device
 {
     taut::device device;
     std::string refusal;
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Why d does not meet the needs, in words; empty if it does.
 std::string device_refusal(const device& d, const device_requirements& needs = {});
@@ -39,7 +39,7 @@ namespace taut
 {
 
 /// Every device of every platform, in the order of the driver loader: TAUT_DEVICE counts them in this order, from 0.
-std::vector<listed_device> devices(const device_requirements& needs = {});
+std::vector<impl::listed_device> devices(const device_requirements& needs = {});
 
 /// The device that a wish names: an index into devices(), or a part of a device's, vendor's or platform's name, in any
 /// case. Of several that fit, and for an empty wish, the best one: double precision before none, then GPU before CPU,
@@ -54,5 +54,5 @@ device choose_device(const device_requirements& needs = {});
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/compute/detail/choose_device.ipp>
+#include <taut/impl/compute/choose_device.ipp>
 #endif

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include <taut/impl/compute/detail/cl.hpp>
+#include <taut/impl/compute/cl.hpp>
 
 namespace taut
 {
@@ -84,5 +84,5 @@ private:
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/compute/detail/device.ipp>
+#include <taut/impl/compute/device.ipp>
 #endif

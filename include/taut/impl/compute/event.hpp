@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include <taut/impl/compute/detail/opencl.hpp>
+#include <taut/impl/compute/opencl.hpp>
 
 namespace taut
 {

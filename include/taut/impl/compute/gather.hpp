@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/compute/detail/vector_program.hpp>
 #include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/compute/program/vector_program.hpp>
 #include <taut/impl/core/parallel.hpp>
 
 namespace taut::impl

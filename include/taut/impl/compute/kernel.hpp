@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/detail/argument.hpp>
-#include <taut/impl/compute/detail/signature.hpp>
+#include <taut/impl/compute/program/argument.hpp>
+#include <taut/impl/compute/program/signature.hpp>
 
 namespace taut::impl
 {

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/detail/build_excerpt.hpp>
-#include <taut/impl/compute/detail/few_functions.hpp>
-#include <taut/impl/compute/detail/program_builder.hpp>
 #include <taut/impl/compute/device.hpp>
 #include <taut/impl/compute/errors.hpp>
 #include <taut/impl/compute/kernels/functions.hpp>
+#include <taut/impl/compute/program/build_excerpt.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
+#include <taut/impl/compute/program/program_builder.hpp>
 #include <taut/impl/compute/quirks.hpp>
 
 namespace taut::impl

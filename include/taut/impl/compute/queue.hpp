@@ -9,7 +9,7 @@
 #include <utility>
 
 #include <taut/impl/compute/choose_device.hpp>
-#include <taut/impl/compute/detail/program_builder.hpp>
+#include <taut/impl/compute/program/program_builder.hpp>
 #include <taut/impl/compute/queue_counters.hpp>
 
 namespace taut::impl
@@ -85,7 +85,7 @@ public:
     impl::typed_kernel<Args...> kernel(const std::string& source, const std::string& name,
                                        const std::string& options = {});
 
-    queue_counters counters() const;
+    impl::queue_counters counters() const;
 
     /// Bytes in the living buffers of this queue.
     std::uint64_t allocated() const noexcept;
@@ -106,5 +106,5 @@ private:
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/compute/detail/queue.ipp>
+#include <taut/impl/compute/queue.ipp>
 #endif

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Counts of what a queue has done since its construction: host waits dominate costs, then launches.
@@ -16,11 +16,6 @@ struct queue_counters
     std::uint64_t builds = 0;        ///< programs compiled
     double build_seconds = 0;        ///< host seconds spent compiling them
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Counts of a queue since `before`.
 inline queue_counters counted_since(const queue_counters& before, queue_counters now)

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/detail/few_functions.hpp>
-#include <taut/impl/compute/detail/joined_source.hpp>
 #include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
+#include <taut/impl/compute/program/joined_source.hpp>
 #include <taut/impl/compute/quirks.hpp>
 #include <taut/impl/symbolic/recording.hpp>
 

@@ -13,9 +13,9 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/compute/detail/partials.hpp>
-#include <taut/impl/compute/detail/vector_program.hpp>
 #include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/compute/partials.hpp>
+#include <taut/impl/compute/program/vector_program.hpp>
 
 namespace taut::impl
 {

@@ -5,7 +5,7 @@
 #include <string>
 #include <type_traits>
 
-#include <taut/impl/compute/detail/queue_state.hpp>
+#include <taut/impl/compute/queue_state.hpp>
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/symbolic/scalar_type.hpp>
 

@@ -15,10 +15,10 @@
 
 #include <taut/impl/constrain/arc_length.hpp>
 #include <taut/impl/constrain/constraint_error.hpp>
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Hard pin: coordinates of a vertex that are fixed exactly: bit k of `held` says that coordinate k is value[k].
@@ -28,6 +28,11 @@ struct hard_pin
     std::uint8_t held = 0;
     vec<D> value{0.0};
 };
+
+} // namespace taut::impl
+
+namespace taut
+{
 
 /// Spring (soft constraint): weight * |x - target|^2 is added to the objective.
 template <int D>
@@ -50,7 +55,7 @@ class constraints
 {
 public:
     static constexpr int D = Element::dimension;
-    static constexpr std::uint8_t all = impl::held_marks<D>::every; ///< all bits of held: every coordinate
+    static constexpr std::uint8_t all = impl::fixed_marks<D>::every; ///< all bits of held: every coordinate
     using point = vec<D>;
 
     constraints() = default; ///< none, of no mesh
@@ -236,7 +241,7 @@ public:
     }
 
     /// Pins, ascending by vertex.
-    const std::map<idx, hard_pin<D>>& pins() const { return pins_; }
+    const std::map<idx, impl::hard_pin<D>>& pins() const { return pins_; }
 
     /// Springs, ascending by vertex.
     std::vector<taut::spring<D>> springs() const
@@ -254,9 +259,9 @@ public:
     }
 
     /// Fixed coordinates of all vertices, as held(), one per vertex.
-    impl::held_marks<D> held() const
+    impl::fixed_marks<D> held() const
     {
-        impl::held_marks<D> marks(count());
+        impl::fixed_marks<D> marks(count());
         for (const auto& [v, p] : pins_) marks[static_cast<std::size_t>(v)] = p.held;
         return marks;
     }
@@ -342,15 +347,16 @@ private:
     {
         require_vertices(vertices);
         std::vector<idx> not_finite, contradictory, duplicate, idle;
-        std::map<idx, hard_pin<D>> added;
+        std::map<idx, impl::hard_pin<D>> added;
         for (std::size_t i = 0; i < vertices.size(); ++i)
         {
             const idx v = vertices[i];
             const point x = where(i);
             if (!finite(x, coordinates)) not_finite.push_back(v);
             const auto earlier = pins_.find(v);
-            const auto [at, is_new] = added.try_emplace(v, earlier == pins_.end() ? hard_pin<D>{} : earlier->second);
-            hard_pin<D>& p = at->second;
+            const auto [at, is_new] =
+                added.try_emplace(v, earlier == pins_.end() ? impl::hard_pin<D>{} : earlier->second);
+            impl::hard_pin<D>& p = at->second;
             bool again = false, differs = false;
             for (int k = 0; k < D; ++k)
             {
@@ -375,7 +381,7 @@ private:
     }
 
     const mesh<Element>* mesh_ = nullptr;
-    std::map<idx, hard_pin<D>> pins_;
+    std::map<idx, impl::hard_pin<D>> pins_;
     std::map<idx, taut::spring<D>> springs_;
 };
 

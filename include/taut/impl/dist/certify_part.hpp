@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/held_part.hpp>
+#include <taut/impl/dist/fixed_part.hpp>
 #include <taut/impl/dist/part.hpp>
 #include <taut/impl/dist/report.hpp>
 #include <taut/impl/exact/branch_edges.hpp>
@@ -86,7 +86,7 @@ certificate certify_part(const part<Element>& p, const std::vector<double>& x, c
 /// Collective. Elements that are inverted or flat whatever else moves, as all their vertices are pinned: their number,
 /// and the first of them. x: D numbers a vertex of the part, of pinned ones their targets.
 template <class Element>
-certificate pinned_inverted(const part<Element>& p, const held_part<Element>& held, const std::vector<double>& x)
+certificate pinned_inverted(const part<Element>& p, const fixed_part<Element>& held, const std::vector<double>& x)
 {
     constexpr int D = Element::dimension;
     std::vector<std::int64_t> ids;
@@ -102,7 +102,7 @@ certificate pinned_inverted(const part<Element>& p, const held_part<Element>& he
                 std::array<vec<D>, part<Element>::K> corners;
                 for (std::size_t k = 0; k < corners.size(); ++k)
                     for (int i = 0; i < D; ++i) corners[k][i] = x[static_cast<std::size_t>(D * cell[k] + i)];
-                if (std::apply([](const auto&... at) { return orient(at...).sign; }, corners) <= 0)
+                if (std::apply([](const auto&... at) { return taut::impl::orient(at...).sign; }, corners) <= 0)
                     ids.push_back(p.cell_ids[c]);
             }
         });

@@ -48,7 +48,7 @@ struct deform_params
     solve::params solve = {};
 
     /// Linear solver.
-    solver_params solver = {};
+    impl::solver_params solver = {};
 
     /// Queue of this process. Without one: processes of a machine take its GPUs in turn, or share its CPU.
     std::optional<taut::queue> queue = {};

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/held_part.hpp>
+#include <taut/impl/dist/fixed_part.hpp>
 #include <taut/impl/dist/vertex_exchange.hpp>
 #include <taut/impl/sparse/block_pattern.hpp>
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/held_part.hpp>
+#include <taut/impl/dist/fixed_part.hpp>
 #include <taut/impl/dist/own_queue.hpp>
 #include <taut/impl/dist/rest_model.hpp>
 #include <taut/impl/map/deform.hpp>
@@ -35,7 +35,7 @@ public:
 
     /// Collective. x: the shape to begin with, in lengths of the run; limits: of process 0. Nothing where
     /// pins are not met by that.
-    static std::optional<result> run(const part<Element>& p, const held_part<Element>& held, double lengths,
+    static std::optional<result> run(const part<Element>& p, const fixed_part<Element>& held, double lengths,
                                      const deform_params<Element>& params, const numbers& x, const run_limits& limits)
     {
         const auto& all = p.all;
@@ -98,7 +98,7 @@ private:
         return to;
     }
 
-    static std::vector<vertex> vertices_of(const part<Element>& p, const held_part<Element>& held, double lengths,
+    static std::vector<vertex> vertices_of(const part<Element>& p, const fixed_part<Element>& held, double lengths,
                                            const numbers& x)
     {
         std::vector<vertex> own(p.own);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <taut/impl/dist/algebraic_multigrid.hpp>
-#include <taut/impl/dist/held_part.hpp>
+#include <taut/impl/dist/fixed_part.hpp>
 #include <taut/impl/dist/local_elements.hpp>
 #include <taut/impl/dist/phase_clock.hpp>
 #include <taut/impl/dist/space.hpp>
@@ -35,7 +35,7 @@ public:
     using point = std::vector<double>;
 
     /// scales: of a typical gradient and a typical rise of the value. Referred to: all else.
-    dist_objective(const part<Element>& p, local_elements<Element>& elements, const held_part<Element>& held,
+    dist_objective(const part<Element>& p, local_elements<Element>& elements, const fixed_part<Element>& held,
                    algebraic_multigrid& multigrid, phase_clock& clock)
         : part_(p),
           elements_(elements),
@@ -402,7 +402,7 @@ private:
 
     const part<Element>& part_;
     local_elements<Element>& elements_;
-    const held_part<Element>& held_;
+    const fixed_part<Element>& held_;
     algebraic_multigrid& multigrid_;
     phase_clock& clock_;
     dist_space space_;

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-namespace taut::dist
+namespace taut::dist::impl
 {
 
 /// Wall-clock seconds of one process by phase.
@@ -19,11 +19,6 @@ struct phase_seconds
     double products = 0;   ///< products with the matrix
     double certify = 0;    ///< exact signs
 };
-
-} // namespace taut::dist
-
-namespace taut::dist::impl
-{
 
 /// The clock of a run by phase.
 class phase_clock

@@ -12,13 +12,13 @@
 #include <vector>
 
 #include <taut/impl/core/disjoint_sets.hpp>
-#include <taut/impl/dist/held_part.hpp>
+#include <taut/impl/dist/fixed_part.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 
 namespace taut::dist::impl
 {
 
-/// Paths of fixed vertices to their targets, as held_paths of one process: bodies, connected by cells between pinned
+/// Paths of fixed vertices to their targets, as fixed_paths of one process: bodies, connected by cells between pinned
 /// vertices, move rigidly, and the remaining displacement is linear.
 template <class Element>
 class pinned_bodies
@@ -28,7 +28,7 @@ public:
     using point = vec<D>;
 
     /// Collective. from: D numbers a vertex of the part; the targets are those of `held` times `lengths`.
-    pinned_bodies(const part<Element>& p, const held_part<Element>& held, const std::vector<double>& from,
+    pinned_bodies(const part<Element>& p, const fixed_part<Element>& held, const std::vector<double>& from,
                   double lengths)
         : part_(p), held_(held), from_(from), to_(from.size()), body_(p.size(), -1)
     {
@@ -216,11 +216,11 @@ private:
                 points.push_back(p);
                 images.push_back(q);
             }
-        return fit_rigid_motion(std::span<const point>(points), std::span<const point>(images));
+        return taut::impl::fit_rigid_motion(std::span<const point>(points), std::span<const point>(images));
     }
 
     const part<Element>& part_;
-    const held_part<Element>& held_;
+    const fixed_part<Element>& held_;
     std::vector<double> from_, to_;
     std::vector<idx> body_;
     std::vector<rigid_motion<D>> motions_;

@@ -44,7 +44,7 @@ struct report
     int fallbacks = 0;              ///< how often a safer preconditioner was needed
     std::int64_t unknowns = 0;      ///< vertices that may move
     certificate flips;              ///< of the shape that is returned
-    phase_seconds seconds;          ///< of this process
+    impl::phase_seconds seconds;    ///< of this process
     std::int64_t own_vertices = 0, halo_vertices = 0, local_cells = 0; ///< of this process
     std::uint64_t device_bytes = 0;                                    ///< in buffers of its device
 };

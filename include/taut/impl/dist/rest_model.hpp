@@ -47,7 +47,7 @@ public:
         const double unit = largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
         const bool regular = params.shapes == target_shapes::regular;
         std::unique_ptr<mesh<Element>> m;
-        std::unique_ptr<ideal_elements<Element>> ideal;
+        std::unique_ptr<taut::impl::ideal_elements<Element>> ideal;
         p.all.together([&] { m = local_mesh(p, unit, regular); });
         if (!regular) p.all.together([&] { ideal = at_rest(p, m.get()); });
         const double whole = regular ? total(p, sizes(p, unit)) : total(p, ideal ? ideal->measure : empty_);
@@ -109,7 +109,7 @@ private:
         auto found = check(
             *m, {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
         std::erase_if(found,
-                      [&](const mesh_finding& f)
+                      [&](const taut::impl::mesh_finding& f)
                       {
                           const bool shape =
                               f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell;
@@ -120,12 +120,12 @@ private:
         return m;
     }
 
-    static std::unique_ptr<ideal_elements<Element>> at_rest(const part<Element>& p, const mesh<Element>* m)
+    static std::unique_ptr<taut::impl::ideal_elements<Element>> at_rest(const part<Element>& p, const mesh<Element>* m)
     {
         if (!m) return nullptr;
         try
         {
-            return std::make_unique<ideal_elements<Element>>(*m);
+            return std::make_unique<taut::impl::ideal_elements<Element>>(*m);
         }
         catch (const mesh_error& e)
         {
@@ -133,7 +133,7 @@ private:
         }
     }
 
-    [[noreturn]] static void refuse(const part<Element>& p, const mesh_finding& found)
+    [[noreturn]] static void refuse(const part<Element>& p, const taut::impl::mesh_finding& found)
     {
         const bool of_vertices = found.fault == mesh_fault::non_manifold_facet || found.fault == mesh_fault::non_finite;
         std::vector<idx> ids; // beyond 32 bits they are cut
@@ -143,14 +143,14 @@ private:
         throw mesh_error(describe<Element>(found.fault, std::move(ids)));
     }
 
-    static std::unique_ptr<ideal_elements<Element>> regular_ones(std::size_t count, double each)
+    static std::unique_ptr<taut::impl::ideal_elements<Element>> regular_ones(std::size_t count, double each)
     {
         const mat<D> W = taut::impl::regular_ideal<Element>();
         double one = Element::measure_factor;
         for (int k = 0; k < D; ++k) one *= W[k][k];
         const double edge = std::pow(each / one, 1.0 / D);
-        return std::make_unique<ideal_elements<Element>>(std::vector<mat<D>>(count, taut::impl::invert_upper(W) / edge),
-                                                         std::vector<double>(count, each));
+        return std::make_unique<taut::impl::ideal_elements<Element>>(
+            std::vector<mat<D>>(count, taut::impl::invert_upper(W) / edge), std::vector<double>(count, each));
     }
 
     /// 2 lambda |l|, where l_v = sum over cells at v of w_c |grad phi_v|, as characteristic_gradient().

@@ -14,7 +14,7 @@
 #include <taut/impl/dist/agreed_limits.hpp>
 #include <taut/impl/dist/certify_part.hpp>
 #include <taut/impl/dist/gathered_solve.hpp>
-#include <taut/impl/dist/harmonic_draft.hpp>
+#include <taut/impl/dist/harmonic_guess.hpp>
 #include <taut/impl/dist/objective.hpp>
 #include <taut/impl/dist/own_queue.hpp>
 #include <taut/impl/dist/rest_model.hpp>
@@ -248,7 +248,7 @@ private:
     bool follow(agreed_limits& clock, report& r)
     {
         const pinned_bodies<Element> bodies(part_, held_, x_, rest_.lengths);
-        if (bodies.parts() > 1 && draft(bodies)) return true;
+        if (bodies.parts() > 1 && start_from_guess(bodies)) return true;
         if (follow_parts(bodies, clock, r)) return true;
         constexpr std::int64_t most = 200000; // vertices, whose factors fit into memory
         if (!clock.over() && objective_->unknowns() <= most && multigrid_.use_factors())
@@ -306,13 +306,13 @@ private:
     }
 
     /// Returns whether the guess was taken: no element is inverted or nearly flat.
-    bool draft(const pinned_bodies<Element>& bodies)
+    bool start_from_guess(const pinned_bodies<Element>& bodies)
     {
         const auto timed = clock_.measure(&phase_seconds::start);
         bool partial = !held_.slides.empty();
         for (std::size_t v = 0; v < part_.own; ++v) partial = partial || (held_.marks[v] != 0 && !held_.pinned(v));
         if (part_.all.any(partial)) return false;
-        const harmonic_draft<Element> guess(part_, held_, elements_.pattern(), x_);
+        const harmonic_guess<Element> guess(part_, held_, elements_.pattern(), x_);
         auto x = guess(bodies, x_);
         constexpr double flat = 0.03; // such elements would cut the steps of all for long
         if (guess.shrinks(x, flat)) return false;
@@ -412,7 +412,7 @@ private:
     deform_params<Element> params_;
     part<Element> part_;
     rest_model<Element> rest_;
-    held_part<Element> held_;
+    fixed_part<Element> held_;
     local_elements<Element> elements_;
     algebraic_multigrid multigrid_;
     std::unique_ptr<dist_objective<Element>> objective_;

@@ -31,7 +31,7 @@ struct smooth_params
     double flat = 1e-4;
 
     solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
-    solver_params solver = {};
+    impl::solver_params solver = {};
     std::optional<taut::queue> queue = {};
     run_limits limits = {};
 

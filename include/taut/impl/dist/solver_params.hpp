@@ -16,6 +16,11 @@ enum class preconditioner
     block_jacobi ///< inverses of the D x D blocks of the diagonal: for tests, and what is left where the others fail
 };
 
+} // namespace taut::dist
+
+namespace taut::dist::impl
+{
+
 /// Parameters of the linear solver.
 struct solver_params
 {
@@ -31,6 +36,11 @@ struct solver_params
             throw parameter_error("solver.options", "the block diagonal has none; leave them out");
     }
 };
+
+} // namespace taut::dist::impl
+
+namespace taut::dist
+{
 
 /// Stable name of a preconditioner.
 constexpr const char* to_string(preconditioner p)

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/detail/split_chords.hpp>
+#include <taut/impl/edit/surface/split_chords.hpp>
 
 namespace taut
 {
@@ -16,7 +16,7 @@ namespace taut
 /// rim; the displacement of the region from it is the detail.
 struct feature
 {
-    surface_region
+    impl::surface_region
         region;           ///< edges between vertices of the rim are halved: their middles are vertices -1 of the source
     vec3 centre{0.0};     ///< mean of the rim by length
     vec3 normal{0, 0, 1}; ///< unit normal of the base, to the outside
@@ -32,7 +32,7 @@ struct feature
 };
 
 /// Makes a feature of a region. Throws parameter_error for a region whose rim encloses no area: its base has no normal.
-inline feature make_feature(surface_region region)
+inline feature make_feature(impl::surface_region region)
 {
     feature f{.region = impl::split_chords(std::move(region))};
     const auto& rim = f.region.rim;

@@ -30,11 +30,6 @@ struct feature_map_params
     }
 };
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Geometry image of a feature: positions (not heights, so that overhangs are represented) over a map of it to the
 /// plane: paper, section 4.1. Positions are in the frame of the base: along its two axes and its normal, from its
 /// centre.
@@ -69,11 +64,6 @@ struct feature_map
     }
 };
 
-} // namespace taut
-
-namespace taut::impl
-{
-
 /// Samples a map at points of the plane, on the device.
 std::vector<vec3> sample(queue& q, const feature_map& map, std::span<const vec2> points);
 
@@ -84,8 +74,8 @@ namespace taut
 
 /// Rasterizes a feature over a map of it, on the device. uv: one per vertex of the feature's region, injective. Throws
 /// parameter_error, device_error.
-feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv,
-                             const impl::feature_map_params& params = {});
+impl::feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv,
+                                   const impl::feature_map_params& params = {});
 
 } // namespace taut
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <taut/impl/compute/buffer.hpp>
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/kernels/feature_map.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 #include <taut/impl/core/csr.hpp>
 #include <taut/impl/edit/feature_map.hpp>
 
@@ -78,8 +78,8 @@ std::vector<vec3> sample(queue& q, const feature_map& map, std::span<const vec2>
 namespace taut
 {
 
-feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv,
-                             const impl::feature_map_params& params)
+impl::feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv,
+                                   const impl::feature_map_params& params)
 {
     params.validate();
     const auto& surface = part.region.surface;
@@ -92,7 +92,7 @@ feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
-    feature_map map;
+    impl::feature_map map;
     const vec2 extent = high - low;
     map.texel = std::max(extent.x, extent.y) / static_cast<double>(params.resolution - 2 * params.margin);
     map.low = low - map.texel * params.margin;

@@ -33,11 +33,6 @@ inline double distance_across(const vec3& a, const vec3& b, const vec3& c, doubl
     return crossing >= 0 && crossing <= length ? std::min(along, std::hypot(x - sx, y - sy)) : along;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Geodesic distances over the surface from the nearest of these vertices, one per vertex, in the units of the surface;
 /// infinity beyond `limit` and in other components. Fronts are carried across triangles as circles around an unfolded
 /// source (fast marching after Kimmel and Sethian 1998, with the update of Novotni and Klein 2002): exact in a plane
@@ -78,4 +73,4 @@ inline std::vector<double> geodesic_distances(const mesh<triangle>& m, const imp
     return distance;
 }
 
-} // namespace taut
+} // namespace taut::impl

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include <taut/impl/edit/detail/laid_feature.hpp>
+#include <taut/impl/edit/attach/laid_feature.hpp>
 #include <taut/impl/edit/parameterize_feature.hpp>
 
 namespace taut

@@ -73,9 +73,9 @@ public:
     idx first_feature() const;               ///< triangle of the feature; the rest is, too
 
     /// Similarity transform of the pose, without softness.
-    similarity_transform transform() const;
+    impl::similarity_transform transform() const;
 
-    const paste_report& report() const;
+    const impl::paste_report& report() const;
 
     /// New self-intersections: pairs of triangles of the result that meet elsewhere than in what they share, and did
     /// not in the target or in the feature; exact (see taut::self_intersections).

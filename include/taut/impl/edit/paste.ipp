@@ -77,11 +77,11 @@ idx paste::first_feature() const
 {
     return body_->first_feature();
 }
-similarity_transform paste::transform() const
+impl::similarity_transform paste::transform() const
 {
     return body_->transform();
 }
-const paste_report& paste::report() const
+const impl::paste_report& paste::report() const
 {
     return body_->report();
 }

@@ -33,6 +33,33 @@ struct paste_pose
     }
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// Tuning of a paste.
+struct paste_tuning
+{
+    /// Basis of the fields that bend target and feature. `linear` overshoots least.
+    rbf_basis basis = rbf_basis::linear;
+
+    /// Maximum number of control points of each kind: along the rim, and fixed ones.
+    idx controls = 300;
+
+    /// Throws parameter_error that names the field.
+    void validate() const
+    {
+        if (controls < 8) throw parameter_error("controls", "must be at least 8");
+        rbf_value(basis, 0, 1);
+    }
+};
+
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Parameters of a paste. Every field has a sensible default.
 struct paste_params
 {
@@ -42,15 +69,12 @@ struct paste_params
     /// under the rim are replaced.
     double reach = 1.8;
 
-    /// Basis of the fields that bend target and feature. `linear` overshoots least.
-    rbf_basis basis = rbf_basis::linear;
-
     /// Limits of the map of the feature to the target, for the first soft pose: a rim that is hard to fit takes an
     /// untangling, which may not end.
     run_limits limits = {.time_limit = std::chrono::seconds(20)};
 
-    /// Maximum number of control points of each kind: along the rim, and fixed ones.
-    idx controls = 300;
+    /// Not for users: what tests and measurements set.
+    impl::paste_tuning tuning = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
@@ -58,8 +82,7 @@ struct paste_params
         pose.validate();
         if (!(reach >= 1.2) || !std::isfinite(reach)) throw parameter_error("reach", "must be 1.2 or more");
         limits.validate();
-        if (controls < 8) throw parameter_error("controls", "must be at least 8");
-        impl::rbf_value(basis, 0, 1);
+        tuning.validate();
     }
 };
 

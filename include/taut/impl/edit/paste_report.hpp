@@ -27,11 +27,6 @@ struct paste_seconds
     double transform = 0; ///< the last change of pose: back-substitutions, kernels, coordinates
 };
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Report of a paste.
 struct paste_report
 {
@@ -56,11 +51,6 @@ struct seam_quality
     double median_angle = 0;   ///< between the normals across the rim, degrees
     double largest_angle = 0;
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 inline double degrees_between(const vec3& a, const vec3& b)
 {
@@ -98,12 +88,12 @@ namespace taut
 {
 
 /// Measures the result of a paste: triangles from first_gap on are of the gap, from first_feature on of the feature.
-inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx first_feature)
+inline impl::seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx first_feature)
 {
-    seam_quality q;
-    const auto sides = facets(m);
+    impl::seam_quality q;
+    const auto sides = impl::facets(m);
     q.manifold = sides.oriented() && impl::pinched_vertices(m, sides).empty();
-    q.boundary_edges = static_cast<idx>(std::count(sides.twin.begin(), sides.twin.end(), facet_table::boundary));
+    q.boundary_edges = static_cast<idx>(std::count(sides.twin.begin(), sides.twin.end(), impl::facet_table::boundary));
     std::vector<vec3> normals;
     double smallest = 180;
     for (idx f = 0; f < m.cell_count(); ++f)

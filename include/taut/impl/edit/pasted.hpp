@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/detail/bending.hpp>
-#include <taut/impl/edit/detail/choose_place.hpp>
-#include <taut/impl/edit/detail/laid_feature.hpp>
+#include <taut/impl/edit/attach/bending.hpp>
+#include <taut/impl/edit/attach/choose_place.hpp>
+#include <taut/impl/edit/attach/laid_feature.hpp>
 #include <taut/impl/edit/paste_params.hpp>
 #include <taut/impl/edit/paste_report.hpp>
 #include <taut/impl/edit/rbf_error.hpp>
@@ -100,7 +100,7 @@ public:
     /// target or in the feature; exact (see taut::self_intersections).
     std::vector<std::array<idx, 2>> self_intersections() const
     {
-        auto pairs = taut::self_intersections(surface());
+        auto pairs = taut::impl::self_intersections(surface());
         std::erase_if(pairs,
                       [&](const std::array<idx, 2>& pair)
                       {
@@ -278,23 +278,23 @@ private:
         };
         std::vector<idx> rim(site_.rim.uv.size());
         for (std::size_t i = 0; i < rim.size(); ++i) rim[i] = static_cast<idx>(i);
-        moving_ = some_of(rim, params_.controls);
+        moving_ = some_of(rim, params_.tuning.controls);
 
         // The target bends between the rim of the feature and a band along the rim of the place.
         const auto& region = site_.place.region;
-        const auto staying = some_of(band(rim_distances(region), 0.0, 0.12), params_.controls);
+        const auto staying = some_of(band(rim_distances(region), 0.0, 0.12), params_.tuning.controls);
         base_ = {queue_, pick(moving_, site_.rim.on_target), pick(staying, region.surface.points()),
-                 pick(bent_, points_), params_.basis};
+                 pick(bent_, points_), params_.tuning.basis};
         report_.controls = base_.solver().size();
         report_.reciprocal_condition = base_.solver().reciprocal_condition();
 
         // The feature bends between its rim and what is far from it.
         const auto& own = part_.region;
         from_rim_ = rim_distances(own);
-        const auto far = some_of(band(from_rim_, soft_band, 1.0), params_.controls);
+        const auto far = some_of(band(from_rim_, soft_band, 1.0), params_.tuning.controls);
         std::vector<vec3> on_rim;
         for (const idx i : moving_) on_rim.push_back(own.surface.points()[at(own.rim[at(i)])]);
-        soft_ = {queue_, on_rim, pick(far, own.surface.points()), own.surface.points(), params_.basis};
+        soft_ = {queue_, on_rim, pick(far, own.surface.points()), own.surface.points(), params_.tuning.basis};
         laid_.reset();
     }
 

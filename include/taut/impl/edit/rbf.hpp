@@ -14,11 +14,6 @@ namespace taut::impl
 
 class rbf_system;
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Parameters of an rbf interpolation.
 struct rbf_params
 {
@@ -63,7 +58,7 @@ private:
     std::shared_ptr<const impl::rbf_system> system_;
 };
 
-} // namespace taut
+} // namespace taut::impl
 
 #ifdef TAUT_IMPLEMENTATION
 #include <taut/impl/edit/rbf.ipp>

@@ -7,15 +7,15 @@
 #include <taut/impl/edit/rbf.hpp>
 #include <taut/impl/edit/rbf_system.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 rbf::rbf(std::span<const vec3> points, const rbf_params& params)
-    : system_(std::make_shared<const impl::rbf_system>(points, params))
+    : system_(std::make_shared<const rbf_system>(points, params))
 {
 }
 
-impl::rbf_field rbf::solve(std::span<const vec3> values) const
+rbf_field rbf::solve(std::span<const vec3> values) const
 {
     return system_->solve(values);
 }
@@ -40,4 +40,4 @@ bool rbf::is_sparse() const
     return system_->is_sparse();
 }
 
-} // namespace taut
+} // namespace taut::impl

@@ -6,7 +6,7 @@
 
 #include <taut/impl/core/error.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Radial functions phi(r) of interpolation, r >= 0. The first three have global support and a polynomial; those of
@@ -19,11 +19,6 @@ enum class rbf_basis
     wendland_c2, ///< (1 - s)^4 (4 s + 1), s = r / radius
     wendland_c4  ///< (1 - s)^6 (35 s^2 + 18 s + 3) / 3
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 constexpr bool is_compact(rbf_basis basis)
 {

@@ -8,7 +8,7 @@
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Error of points at which the interpolation system is singular. ids() holds them in pairs, as they were given.
@@ -25,4 +25,4 @@ private:
     std::vector<idx> ids_;
 };
 
-} // namespace taut
+} // namespace taut::impl

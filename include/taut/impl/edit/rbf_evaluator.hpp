@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/kernels/rbf.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 #include <taut/impl/compute/real_buffer.hpp>
 #include <taut/impl/edit/rbf_field.hpp>
 #include <taut/impl/mesh/arrays.hpp>

@@ -16,7 +16,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 
-#include <taut/impl/edit/detail/near_pairs.hpp>
+#include <taut/impl/edit/attach/near_pairs.hpp>
 #include <taut/impl/edit/rbf.hpp>
 #include <taut/impl/edit/rbf_error.hpp>
 

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/detail/face_set.hpp>
 #include <taut/impl/edit/geodesic_distances.hpp>
+#include <taut/impl/edit/surface/face_set.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Region of a surface with disk topology, as a mesh of its own.
@@ -25,11 +25,6 @@ struct surface_region
     std::vector<idx> faces;    ///< the same for its triangles
     std::vector<idx> rim;      ///< the boundary loop, in numbers of the region, with the region to its left
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Cuts out triangles. Throws region_error unless they are a disk.
 inline surface_region cut_out(const mesh<triangle>& m, const face_set& set)
@@ -106,10 +101,10 @@ namespace taut
 
 /// Makes a region of these triangles. Throws region_error where it is no disk, mesh_error where the surface is not
 /// manifold and oriented.
-inline surface_region region_of_faces(const mesh<triangle>& m, std::span<const idx> faces)
+inline impl::surface_region region_of_faces(const mesh<triangle>& m, std::span<const idx> faces)
 {
     impl::require_in_range(faces, m.cell_count(), "triangle", "triangles");
-    const auto sides = facets(m);
+    const auto sides = impl::facets(m);
     impl::face_set set(m, sides);
     for (const idx f : faces) set.add(f);
     return impl::cut_out(m, set);
@@ -119,13 +114,13 @@ inline surface_region region_of_faces(const mesh<triangle>& m, std::span<const i
 /// surface. Enclosed holes are filled where they have fewer triangles than the disk; where the disk touches itself at a
 /// vertex, the smaller side is left out; triangles with two sides on the rim are added or removed. Throws as
 /// region_of_faces.
-inline surface_region geodesic_disk(const mesh<triangle>& m, idx centre, double radius)
+inline impl::surface_region geodesic_disk(const mesh<triangle>& m, idx centre, double radius)
 {
     impl::require_in_range(std::array{centre}, m.vertex_count(), "vertex", "vertices");
     if (!(radius > 0)) throw parameter_error("radius", "must be positive");
     const impl::csr cells_of = impl::vertex_cells(m);
-    const auto distance = geodesic_distances(m, cells_of, std::array{centre}, radius);
-    const auto sides = facets(m);
+    const auto distance = impl::geodesic_distances(m, cells_of, std::array{centre}, radius);
+    const auto sides = impl::facets(m);
     impl::face_set set(m, sides);
     for (idx f = 0; f < m.cell_count(); ++f)
     {
@@ -153,10 +148,10 @@ inline surface_region geodesic_disk(const mesh<triangle>& m, idx centre, double 
 }
 
 /// Region to the left of a closed loop of edges, named by its vertices in their order. Throws as region_of_faces.
-inline surface_region region_inside(const mesh<triangle>& m, std::span<const idx> loop)
+inline impl::surface_region region_inside(const mesh<triangle>& m, std::span<const idx> loop)
 {
     impl::require_in_range(loop, m.vertex_count(), "vertex", "vertices");
-    const auto sides = facets(m);
+    const auto sides = impl::facets(m);
     std::map<std::array<idx, 2>, idx> side_of;
     for (idx s = 0; s < static_cast<idx>(sides.twin.size()); ++s) side_of.emplace(impl::side_vertices(m, s), s);
     std::vector<idx> barrier;

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include <taut/impl/core/parallel.hpp>
-#include <taut/impl/edit/detail/surface_tree.hpp>
+#include <taut/impl/edit/surface/surface_tree.hpp>
 #include <taut/impl/exact/triangles_meet.hpp>
 #include <taut/impl/mesh/mesh.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Pairs of triangles that meet elsewhere than in the corner or the edge that they share, the smaller number first, in
@@ -47,4 +47,4 @@ inline std::vector<std::array<idx, 2>> self_intersections(const mesh<triangle>& 
     return pairs;
 }
 
-} // namespace taut
+} // namespace taut::impl

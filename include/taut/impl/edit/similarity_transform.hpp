@@ -5,7 +5,7 @@
 
 #include <taut/impl/core/types.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Similarity transform x -> to + scale * rotation * (x - from).
@@ -17,11 +17,6 @@ struct similarity_transform
 
     vec3 operator()(const vec3& x) const { return to + scale * (rotation * (x - from)); }
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// The rotation by an angle in radians about an axis of length 1.
 inline mat3 rotation_about(const vec3& axis, double angle)

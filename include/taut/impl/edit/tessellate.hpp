@@ -20,7 +20,8 @@ namespace taut
 ///
 /// uv: of the vertices of part's region, that the map was made with. The vertices inside and all triangles are none of
 /// the source (-1). Throws parameter_error, paste_error where the rim crosses itself in uv.
-feature tessellate(queue& q, const feature& part, const feature_map& map, std::span<const vec2> uv, idx triangles);
+feature tessellate(queue& q, const feature& part, const impl::feature_map& map, std::span<const vec2> uv,
+                   idx triangles);
 
 } // namespace taut
 

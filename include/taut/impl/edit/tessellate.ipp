@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/detail/feature_refinement.hpp>
-#include <taut/impl/edit/detail/polygon_filling.hpp>
 #include <taut/impl/edit/feature_map.hpp>
 #include <taut/impl/edit/paste_error.hpp>
+#include <taut/impl/edit/surface/feature_refinement.hpp>
+#include <taut/impl/edit/surface/polygon_filling.hpp>
 #include <taut/impl/edit/tessellate.hpp>
 
 namespace taut::impl
@@ -92,7 +92,7 @@ inline std::vector<map_cell> split_cells(queue& q, const feature_map& map, std::
 namespace taut
 {
 
-feature tessellate(queue& q, const feature& part, const feature_map& map, std::span<const vec2> uv, idx triangles)
+feature tessellate(queue& q, const feature& part, const impl::feature_map& map, std::span<const vec2> uv, idx triangles)
 {
     if (triangles < 1) throw parameter_error("triangles", "must be positive");
     const auto& rim = part.region.rim;

@@ -45,7 +45,7 @@ namespace taut::io
 /// Encodes a feature map as an OpenEXR file, and returns its bytes: R, G, B are x, y, z in the frame of the base as
 /// 32-bit floats, A is 1 where a triangle covers a texel and 0 elsewhere. Scan lines, not compressed, the first row of
 /// the map at the bottom.
-inline std::string exr_of(const feature_map& map)
+inline std::string exr_of(const taut::impl::feature_map& map)
 {
     constexpr std::string_view channels = "ABGR"; // in the order of their names, as the format wants them
     const auto right = static_cast<std::uint64_t>(map.width - 1), bottom = static_cast<std::uint64_t>(map.height - 1);

@@ -8,7 +8,7 @@
 
 #include <taut/impl/edit/paste.hpp>
 #include <taut/impl/io/atomic_file.hpp>
-#include <taut/impl/io/detail/obj_output.hpp>
+#include <taut/impl/io/surface/obj_output.hpp>
 #include <taut/impl/io/surface_file.hpp>
 
 namespace taut::io

@@ -27,7 +27,7 @@ class any_energy
 public:
     template <class E>
         requires(!std::same_as<std::remove_cvref_t<E>, any_energy>)
-    &&(energy::energy_function<E, 2> || energy::energy_function<E, 3>)any_energy(E e)
+    &&(energy::impl::energy_function<E, 2> || energy::impl::energy_function<E, 3>)any_energy(E e)
         : model_(std::make_shared<model<E>>(std::move(e)))
     {
     }

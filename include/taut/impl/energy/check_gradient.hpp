@@ -17,7 +17,7 @@
 #include <taut/impl/symbolic/differentiate.hpp>
 #include <taut/impl/symbolic/evaluate.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Result of check_gradient().
@@ -38,8 +38,13 @@ struct gradient_check
     explicit operator bool() const { return derivative() && isotropic() && barrier; }
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Prints the faults in words.
-inline std::ostream& operator<<(std::ostream& out, const gradient_check& c)
+inline std::ostream& operator<<(std::ostream& out, const impl::gradient_check& c)
 {
     std::ostringstream text; // so that the user's stream keeps its format
     if (!c.derivative())
@@ -97,7 +102,7 @@ namespace taut
 /// your own: a tape differentiates what was traced, so a disagreement means that the function branches differently for
 /// numbers and for traced scalars (a cast, a table, a branch on T), or that it is not smooth.
 template <int D>
-gradient_check check_gradient(const any_energy& energy, int trials = 100, unsigned seed = 1)
+impl::gradient_check check_gradient(const any_energy& energy, int trials = 100, unsigned seed = 1)
 {
     using real = sym<double>;
     tape recorded;
@@ -114,7 +119,7 @@ gradient_check check_gradient(const any_energy& energy, int trials = 100, unsign
     { return std::isnan(found) ? std::numeric_limits<double>::infinity() : std::max(so_far, found); };
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> entry(-0.6, 0.6);
-    gradient_check result;
+    impl::gradient_check result;
     while (result.trials < trials)
     {
         mat<D> m(1.0);

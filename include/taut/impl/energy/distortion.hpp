@@ -39,7 +39,7 @@ double bounded(const Energy& energy, const element<double, D>& e)
 
 /// Value of an energy for every element; +infinity beyond its barrier.
 template <class Element, class Energy>
-std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Element>& ideal,
+std::vector<double> distortion(const mesh<Element>& m, const impl::ideal_elements<Element>& ideal,
                                std::span<const vec<Element::dimension>> x, const Energy& energy)
 {
     std::vector<double> result(m.cells().size());
@@ -56,8 +56,13 @@ std::vector<double> distortion(const mesh<Element>& m, const ideal_elements<Elem
 template <class Element>
 std::vector<double> distortion(const mesh<Element>& m, std::span<const vec<Element::dimension>> x)
 {
-    return distortion(m, ideal_elements<Element>(m), x, energy::isometric{});
+    return distortion(m, impl::ideal_elements<Element>(m), x, energy::isometric{});
 }
+
+} // namespace taut
+
+namespace taut::impl
+{
 
 /// Means of a value over elements, unweighted and weighted by the rest measure.
 struct means
@@ -122,4 +127,4 @@ means mean_over(const mesh<Element>& m, const ideal_elements<Element>& ideal,
     return s.values.over(m.cells().size(), s.total);
 }
 
-} // namespace taut
+} // namespace taut::impl

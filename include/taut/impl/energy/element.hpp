@@ -44,7 +44,7 @@ private:
 
 } // namespace taut
 
-namespace taut::energy
+namespace taut::energy::impl
 {
 
 /// Energy density: a function of one element, smooth where det S > 0. `barrier` says that it tends to infinity as det S
@@ -59,6 +59,11 @@ concept energy_function = requires(const E& e, const element<double, D>& x)
         E::barrier
         } -> std::convertible_to<bool>;
 };
+
+} // namespace taut::energy::impl
+
+namespace taut::energy
+{
 
 /// Weights of the sum over elements. The paper sums with weight 1; the field has since weighted by the rest measure.
 enum class weighting

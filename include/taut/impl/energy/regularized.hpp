@@ -9,7 +9,7 @@
 #include <taut/impl/energy/element.hpp>
 #include <taut/impl/energy/invariants.hpp>
 
-namespace taut::energy
+namespace taut::energy::impl
 {
 
 /// Regularised energy of Garanzha et al. 2021 ("Foldover-free maps in 50 lines of code") in dimension D,
@@ -90,4 +90,4 @@ struct regularized_element
     }
 };
 
-} // namespace taut::energy
+} // namespace taut::energy::impl

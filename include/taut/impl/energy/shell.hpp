@@ -37,9 +37,9 @@ struct shell
     T operator()(const element<T, 3>& e) const
     {
         const T t = half_tangent(e), h = e.parameter(0);
-        return e.attribute(shell_attributes::shares) * stretching(membrane<T>(e, 0)) +
-               e.attribute(shell_attributes::shares + 1) * stretching(membrane<T>(e, 1)) +
-               h * h * e.attribute(shell_attributes::bending) * (T(4.0 / 3) * t * t);
+        return e.attribute(taut::impl::shell_attributes::shares) * stretching(membrane<T>(e, 0)) +
+               e.attribute(taut::impl::shell_attributes::shares + 1) * stretching(membrane<T>(e, 1)) +
+               h * h * e.attribute(taut::impl::shell_attributes::bending) * (T(4.0 / 3) * t * t);
     }
 
     /// Second derivatives by the entries of S, by columns. Filtered, the stretching energy of each triangle has its own
@@ -52,10 +52,11 @@ struct shell
         for (int j = 0; j < 9; ++j)
             for (int i = 0; i <= j; ++i) H(i, j) = T(0.0);
         for (const std::size_t side : {0U, 1U})
-            add_stretching(membrane<T>(e, side), e.attribute(shell_attributes::shares + side), filter, type, H);
+            add_stretching(membrane<T>(e, side), e.attribute(taut::impl::shell_attributes::shares + side), filter, type,
+                           H);
 
         const T h = e.parameter(0), t = half_tangent(e);
-        const T twice = T(8.0 / 3) * h * h * e.attribute(shell_attributes::bending);
+        const T twice = T(8.0 / 3) * h * h * e.attribute(taut::impl::shell_attributes::bending);
         std::vector<T> entries;
         for (int c = 0; c < 3; ++c)
             for (int r = 0; r < 3; ++r) entries.push_back(e.S[c][r]);
@@ -92,7 +93,7 @@ private:
     template <class T>
     static jacobian<T> membrane(const element<T, 3>& e, std::size_t side)
     {
-        const std::size_t at = side == 0 ? shell_attributes::first : shell_attributes::second;
+        const std::size_t at = side == 0 ? taut::impl::shell_attributes::first : taut::impl::shell_attributes::second;
         jacobian<T> j{side == 0 ? 1 : 2, e.attribute(at), e.attribute(at + 1), e.attribute(at + 2), {}, {}, {}, {}};
         j.x = e.S[0] * j.b00;
         j.y = e.S[0] * j.b01 + e.S[j.edge] * j.b11;
@@ -118,7 +119,8 @@ private:
         const auto a = glm::cross(e.S[0], e.S[1]), b = glm::cross(e.S[2], e.S[0]);
         const T areas = sqrt(glm::dot(a, a) * glm::dot(b, b));
         const T c = glm::dot(a, b) / areas, s = sqrt(glm::dot(e.S[0], e.S[0])) * glm::dot(a, e.S[2]) / areas;
-        const T c0 = e.attribute(shell_attributes::cosine), s0 = e.attribute(shell_attributes::sine);
+        const T c0 = e.attribute(taut::impl::shell_attributes::cosine),
+                s0 = e.attribute(taut::impl::shell_attributes::sine);
         return (s * c0 - c * s0) / (T(1.0) + (c * c0 + s * s0));
     }
 

@@ -125,7 +125,7 @@ inline std::vector<idx> branch_points(std::span<const std::array<idx, 3>> cells,
             auto& n = around[static_cast<std::size_t>(i)];
             n.link.add(a, b);
             n.turns += rises(t[k], a, b);
-            const int sign = orient(at(t[k]), at(a), at(b)).sign;
+            const int sign = impl::orient(at(t[k]), at(a), at(b)).sign;
             n.positive = n.positive || sign >= 0;
             n.negative = n.negative || sign <= 0;
         }

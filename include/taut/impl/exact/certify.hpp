@@ -104,7 +104,7 @@ certificate certify(std::span<const std::array<idx, D + 1>> cells, std::span<con
     if (cells.empty()) return {};
     const auto det_at = [&]<std::size_t... K>(std::size_t f, std::index_sequence<K...>)
     {
-        return orient(x[static_cast<std::size_t>(cells[f][K])]...);
+        return impl::orient(x[static_cast<std::size_t>(cells[f][K])]...);
     };
     constexpr std::size_t block = 4096;
     std::vector<impl::flip_count> parts((cells.size() + block - 1) / block);
@@ -115,7 +115,7 @@ certificate certify(std::span<const std::array<idx, D + 1>> cells, std::span<con
             for (std::size_t b = begin; b < end; ++b)
                 for (std::size_t f = b * block; f < std::min(cells.size(), (b + 1) * block); ++f)
                 {
-                    const orientation o = det_at(f, std::make_index_sequence<D + 1>{});
+                    const impl::orientation o = det_at(f, std::make_index_sequence<D + 1>{});
                     const double det = measure.empty() ? o.det : o.det / (measure[f] * factorial);
                     parts[b].add(static_cast<idx>(f), o.sign, det, max_ids);
                 }

@@ -14,7 +14,7 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/exact/predicates.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Convex polygons among the faces of a surface. A reader of a file may triangulate them another way: all triangles of
@@ -33,11 +33,6 @@ struct convex_polygons
         return std::span(corners).subspan(begin, end - begin);
     }
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Outline of the triangles of a polygon, valid until the next call on the thread; empty unless it is a polygon without
 /// holes.
@@ -86,11 +81,6 @@ inline bool is_convex(std::span<const idx> loop, std::span<const vec3> points)
     return true;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Finds the polygons of more than three corners that are convex in space.
 /// cells: triangles; polygon: a number for each, from 0, that of its polygon; points: one per vertex
 inline convex_polygons find_convex_polygons(std::span<const std::array<idx, 3>> cells, std::span<const idx> polygon,
@@ -134,4 +124,4 @@ inline std::vector<idx> find_concave(const convex_polygons& polygons, std::span<
     return concave;
 }
 
-} // namespace taut
+} // namespace taut::impl

@@ -9,7 +9,7 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/exact/exact_sum.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Orientation of a simplex: an exact sign and the determinant of its edges to a few ulps.
@@ -18,11 +18,6 @@ struct orientation
     int sign = 0;   ///< -1, 0 or 1; exact for finite coordinates, 0 if one is not finite
     double det = 0; ///< determinant with that sign (it may underflow to 0 or overflow), NaN if not finite
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// det = det[b - a, c - a], by exact arithmetic: b x c + c x a + a x b.
 inline orientation exact_orient(const vec2& a, const vec2& b, const vec2& c)
@@ -85,11 +80,6 @@ inline bool finite(const vec3& p)
     return finite(p.x) && finite(p.y) && finite(p.z);
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Orientation of triangle (a, b, c): det[b - a, c - a], twice its area, positive if counter-clockwise.
 /// The sign is exact for every finite input. A floating-point filter first (Shewchuk 1997 has the error bounds,
 /// used here with a margin), the exact sum where the filter cannot tell.
@@ -128,11 +118,6 @@ inline orientation orient(const vec3& a, const vec3& b, const vec3& c, const vec
         return {0, std::numeric_limits<double>::quiet_NaN()};
     return impl::exact_orient(a, b, c, d);
 }
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Exact sign of orient(a, b, c).
 inline int orient2d(const vec2& a, const vec2& b, const vec2& c)

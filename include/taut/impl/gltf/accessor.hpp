@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include <taut/impl/gltf/source.hpp>
-#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
 
 /// Arrays of a glTF document.
 namespace taut::io::impl

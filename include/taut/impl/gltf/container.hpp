@@ -16,7 +16,7 @@
 
 #include <taut/impl/gltf/source.hpp>
 #include <taut/impl/gltf/uri.hpp>
-#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
 #include <taut/impl/io/read_file.hpp>
 
 /// A glTF document and its buffers taken from a file, and put into one.

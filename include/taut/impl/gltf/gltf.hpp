@@ -97,11 +97,6 @@ std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& pat
 /// parameter_error for another ending.
 std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path& path, const gltf_source& source);
 
-} // namespace taut::io::impl
-
-namespace taut::io
-{
-
 /// Encodes a model with new texture coordinates as the files to be written: one, or a .gltf and the .bin beside it.
 /// Their bytes are made here.
 ///
@@ -119,6 +114,11 @@ namespace taut::io
 std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
                                       std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
                                       gltf_numbers numbers = gltf_numbers::floats);
+
+} // namespace taut::io::impl
+
+namespace taut::io
+{
 
 /// Writes a model with new texture coordinates; its files appear together or not at all.
 void write_gltf(const std::filesystem::path& path, const gltf_model& model,

@@ -13,7 +13,7 @@
 #include <taut/impl/gltf/container.hpp>
 #include <taut/impl/gltf/gltf.hpp>
 #include <taut/impl/gltf/primitives.hpp>
-#include <taut/impl/io/detail/point_numbers.hpp>
+#include <taut/impl/io/surface/point_numbers.hpp>
 #include <taut/impl/mesh/mesh_error.hpp>
 #include <utility>
 #include <vector>

@@ -255,11 +255,6 @@ inline std::vector<file_to_write> files_of_document(const std::filesystem::path&
     return files;
 }
 
-} // namespace taut::io::impl
-
-namespace taut::io
-{
-
 std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
                                       std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set,
                                       gltf_numbers numbers)
@@ -269,10 +264,15 @@ std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const g
     return impl::files_of_document(path, model, data, std::move(document), std::move(bytes));
 }
 
+} // namespace taut::io::impl
+
+namespace taut::io
+{
+
 void write_gltf(const std::filesystem::path& path, const gltf_model& model,
                 std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set, gltf_numbers numbers)
 {
-    write_files(gltf_files(path, model, corner_uv, texcoord_set, numbers));
+    write_files(impl::gltf_files(path, model, corner_uv, texcoord_set, numbers));
 }
 
 gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)

@@ -5,12 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include <taut/impl/io/detail/file_target.hpp>
+#include <taut/impl/io/file/file_target.hpp>
 
 #if defined(__unix__) || defined(__APPLE__)
-#include <taut/impl/io/detail/posix_file.hpp>
+#include <taut/impl/io/file/posix_file.hpp>
 #else
-#include <taut/impl/io/detail/plain_file.hpp>
+#include <taut/impl/io/file/plain_file.hpp>
 #endif
 
 namespace taut::io::impl

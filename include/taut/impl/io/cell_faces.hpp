@@ -34,11 +34,6 @@ struct cell_face
     }
 };
 
-} // namespace taut::io::impl
-
-namespace taut::io
-{
-
 /// Faces of all cells of the file's dimension, in the order of the cells, and their adjacency.
 struct cell_faces
 {
@@ -58,11 +53,6 @@ struct cell_faces
         return here[1] == there[static_cast<std::size_t>(at + 1) % there.size()];
     }
 };
-
-} // namespace taut::io
-
-namespace taut::io::impl
-{
 
 /// Corners of the sides of a cell, by VTK's numbers; -1 behind the last.
 inline std::span<const std::array<int, 4>> face_table(cell_kind kind)
@@ -102,13 +92,13 @@ namespace taut::io
 {
 
 /// Computes the faces of all cells and their adjacency. Time O(n log(largest valence)).
-inline cell_faces cell_faces_of(const volume_file& file)
+inline impl::cell_faces cell_faces_of(const volume_file& file)
 {
     std::size_t n = 0;
     for (const auto& block : file.cells)
         if (impl::shape_of(block.kind).dimension == file.dimension)
             n += block.size() * impl::face_table(block.kind).size();
-    cell_faces result;
+    impl::cell_faces result;
     result.faces.reserve(n);
     impl::for_each_cell(file, file.dimension,
                         [&](cell_kind kind, idx number, std::span<const idx> corners)
@@ -156,7 +146,7 @@ inline cell_faces cell_faces_of(const volume_file& file)
                                  for (std::size_t v = begin; v < end; ++v)
                                      std::sort(order.begin() + start[v], order.begin() + start[v + 1]);
                              });
-    result.twin.assign(n, cell_faces::boundary);
+    result.twin.assign(n, impl::cell_faces::boundary);
     for (std::size_t v = 0; v < file.points.size(); ++v)
         for (auto first = static_cast<std::size_t>(start[v]), last = first,
                   end = static_cast<std::size_t>(start[v + 1]);
@@ -166,7 +156,7 @@ inline cell_faces cell_faces_of(const volume_file& file)
             if (last - first == 1) continue;
             for (std::size_t k = first; k < last; ++k)
                 result.twin[static_cast<std::size_t>(order[k].side)] =
-                    last - first > 2 ? cell_faces::non_manifold : order[k == first ? last - 1 : first].side;
+                    last - first > 2 ? impl::cell_faces::non_manifold : order[k == first ? last - 1 : first].side;
         }
     return result;
 }
@@ -253,7 +243,7 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
 /// Finds faults of the cells of a file, because of which they cannot all be positive and disjoint: pairs with the same
 /// corners (duplicate_cell), neighbours oriented differently (inconsistent_orientation), and sides that three cells or
 /// more share (non_manifold_facet), each with all of its kind. Cells count as for_each_cell() does.
-inline std::vector<mesh_finding> check_sides(const volume_file& file)
+inline std::vector<taut::impl::mesh_finding> check_sides(const volume_file& file)
 {
     const auto sides = cell_faces_of(file);
     const auto twin_cell = [&](std::size_t s) { return sides.faces[static_cast<std::size_t>(sides.twin[s])].cell; };
@@ -283,7 +273,7 @@ inline std::vector<mesh_finding> check_sides(const volume_file& file)
         non_manifold.insert(non_manifold.end(), face.begin(), face.begin() + static_cast<std::ptrdiff_t>(named));
 
     const auto pairs = [](const std::vector<idx>& ids) { return taut::impl::list_ids("pair", "pairs", ids, 2); };
-    std::vector<mesh_finding> found;
+    std::vector<taut::impl::mesh_finding> found;
     if (!copies.empty())
         found.push_back({mesh_fault::duplicate_cell, copies,
                          pairs(copies) + " of cells with the same corners; remove one of each"});

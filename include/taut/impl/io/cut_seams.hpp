@@ -28,5 +28,5 @@ std::optional<cut_surface> cut_seams(const surface_file& file);
 } // namespace taut::io
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/io/detail/cut_seams.ipp>
+#include <taut/impl/io/surface/cut_seams.ipp>
 #endif

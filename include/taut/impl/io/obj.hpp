@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <taut/impl/core/parallel.hpp>
-#include <taut/impl/io/detail/obj_statements.hpp>
-#include <taut/impl/io/detail/polygon_soup.hpp>
-#include <taut/impl/io/detail/scanner.hpp>
+#include <taut/impl/io/file/scanner.hpp>
+#include <taut/impl/io/surface/obj_statements.hpp>
+#include <taut/impl/io/surface/polygon_soup.hpp>
 
 namespace taut::io::impl
 {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/detail/polygon_soup.hpp>
-#include <taut/impl/io/detail/scanner.hpp>
+#include <taut/impl/io/file/scanner.hpp>
+#include <taut/impl/io/surface/polygon_soup.hpp>
 
 namespace taut::io::impl
 {

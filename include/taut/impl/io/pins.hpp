@@ -17,7 +17,7 @@
 
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/io/atomic_file.hpp>
-#include <taut/impl/io/detail/scanner.hpp>
+#include <taut/impl/io/file/scanner.hpp>
 #include <taut/impl/io/read_file.hpp>
 
 namespace taut::io

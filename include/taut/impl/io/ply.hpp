@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/detail/polygon_soup.hpp>
 #include <taut/impl/io/ply/header.hpp>
 #include <taut/impl/io/ply/values.hpp>
+#include <taut/impl/io/surface/polygon_soup.hpp>
 
 namespace taut::io::impl
 {

@@ -14,11 +14,11 @@
 #include <variant>
 #include <vector>
 
-#include <taut/impl/io/detail/scanner.hpp>
+#include <taut/impl/io/file/scanner.hpp>
 #include <taut/impl/io/read_file.hpp>
 #include <taut/impl/mesh/mesh.hpp>
 
-namespace taut::io
+namespace taut::io::impl
 {
 
 /// Untangling problem as a file states it: every index is in range, every number finite, no cell names a vertex twice.
@@ -33,11 +33,6 @@ struct prob_file
     std::vector<vec<D>> initial;                     ///< the map to start from; of fixed vertices, where they stay
     std::vector<idx> fixed;                          ///< as in the file, which may name a vertex twice
 };
-
-} // namespace taut::io
-
-namespace taut::io::impl
-{
 
 /// Reads the four blocks of a problem, each a line with its size and then one item per line.
 class prob_reader
@@ -223,7 +218,7 @@ namespace taut::io
 
 /// Reads an untangling problem. Throws io_error with the line: unreadable or malformed.
 template <class Element>
-prob_file<Element> read_prob(const std::filesystem::path& path)
+impl::prob_file<Element> read_prob(const std::filesystem::path& path)
 {
     return impl::parse_prob<Element>(impl::read_file(path), path.string());
 }

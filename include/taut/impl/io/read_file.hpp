@@ -16,7 +16,7 @@
 #include <unistd.h>
 #endif
 
-#include <taut/impl/io/detail/file_target.hpp>
+#include <taut/impl/io/file/file_target.hpp>
 #include <taut/impl/io/io_error.hpp>
 
 namespace taut::io::impl

@@ -33,5 +33,5 @@ mesh<triangle> read_surface(const std::filesystem::path& path, surface_format fo
 } // namespace taut::io
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/io/detail/read_surface.ipp>
+#include <taut/impl/io/surface/read_surface.ipp>
 #endif

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <utility>
 
-#include <taut/impl/io/detail/byte_order.hpp>
-#include <taut/impl/io/detail/point_numbers.hpp>
-#include <taut/impl/io/detail/polygon_soup.hpp>
-#include <taut/impl/io/detail/scanner.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
+#include <taut/impl/io/file/scanner.hpp>
+#include <taut/impl/io/surface/point_numbers.hpp>
+#include <taut/impl/io/surface/polygon_soup.hpp>
 
 namespace taut::io::impl
 {

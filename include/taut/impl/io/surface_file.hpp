@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/detail/text_list.hpp>
+#include <taut/impl/io/file/text_list.hpp>
 #include <taut/impl/mesh/describe.hpp>
 #include <taut/impl/mesh/mesh.hpp>
 #include <taut/impl/mesh/unused_vertices.hpp>

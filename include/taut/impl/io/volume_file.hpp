@@ -97,11 +97,6 @@ inline void turn_cell(cell_kind kind, std::span<idx> corners)
     }
 }
 
-} // namespace taut::io::impl
-
-namespace taut::io
-{
-
 /// Cells of one kind that follow each other in a file.
 struct cell_block
 {
@@ -133,6 +128,11 @@ struct volume_label
     bool of_cells;
     std::vector<long long> values;
 };
+
+} // namespace taut::io::impl
+
+namespace taut::io
+{
 
 /// Error of a group that does not exist, or of a name that several have. what() lists those that exist.
 class group_error : public error
@@ -200,12 +200,12 @@ struct volume_file
     int dimension = 3;  ///< 2: two coordinates per point, or no volume cell and all z equal
     std::vector<vec3> points;
     std::vector<vec3> rest; ///< problems: the rest shape, of which the points are a map; else empty: points at rest
-    std::vector<cell_block> cells;
+    std::vector<impl::cell_block> cells;
     std::vector<idx> turned; ///< cells whose corners the file has in the other order, as for_each_cell() counts
-    std::vector<volume_group> groups;
-    std::vector<volume_label> labels; ///< labels that groups were made from
-    std::vector<std::string> notes;   ///< parts that were not read, in sentences
-    std::string bytes;                ///< the whole file
+    std::vector<impl::volume_group> groups;
+    std::vector<impl::volume_label> labels; ///< labels that groups were made from
+    std::vector<std::string> notes;         ///< parts that were not read, in sentences
+    std::string bytes;                      ///< the whole file
     std::vector<impl::companion_file> companions;
     impl::coordinate_places places;
 
@@ -213,7 +213,7 @@ struct volume_file
     const std::vector<vec3>& at_rest() const { return rest.empty() ? points : rest; }
 
     /// The group of a name. A number alone finds the one group whose name ends in ":" and it. Throws group_error.
-    const volume_group& find_group(std::string_view name) const;
+    const impl::volume_group& find_group(std::string_view name) const;
 };
 
 } // namespace taut::io

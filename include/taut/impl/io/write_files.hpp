@@ -24,5 +24,5 @@ void write_files(std::span<const file_to_write> files);
 } // namespace taut::io
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/io/detail/write_files.ipp>
+#include <taut/impl/io/file/write_files.ipp>
 #endif

@@ -48,5 +48,5 @@ void write_obj(const std::filesystem::path& path, const Content&... content)
 } // namespace taut::io
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/io/detail/write_obj.ipp>
+#include <taut/impl/io/surface/write_obj.ipp>
 #endif

@@ -8,7 +8,7 @@
 #include <taut/impl/map/deform.hpp>
 #include <taut/impl/untangle/untangle_refined.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Result of deform_refined(): the deformation, and the refined mesh.
@@ -22,14 +22,19 @@ struct refined_deformation
     int rounds = 0;                 ///< rounds of splits
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Deforms a mesh after splitting elements where it is proved that the pins admit no map without inverted elements:
 /// inner edges between pinned vertices, say, where all corners of an element are pinned so that it is inverted. The
 /// boundary is not split. `infeasible`: the proof holds for all splits inside the mesh; reason says which. Throws
 /// parameter_error for params with targets, data of elements or owners, which refined elements do not have, and as
 /// deform() does.
 template <class Element>
-refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, deform_params<Element> params,
-                                            const refine_params& refine = {})
+impl::refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, deform_params<Element> params,
+                                                  const refine_params& refine = {})
 {
     if (!params.targets.empty())
         throw parameter_error("targets", "are of elements, which are to be split; leave it out");
@@ -41,7 +46,7 @@ refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, de
     const auto pins = params.constraints.on(m);
     pins.impose(x);
     auto split = impl::refine_infeasible(untangle_problem<Element>{m, std::move(x), pins.held()}, refine);
-    refined_deformation<Element> found{
+    impl::refined_deformation<Element> found{
         {}, std::move(split.problem.rest), std::move(split.how), std::move(split.cells), split.rounds};
     if (!split.obstacle.empty())
     {

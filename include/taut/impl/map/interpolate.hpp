@@ -61,7 +61,7 @@ private:
         if (to.size() != from.points().size())
             throw parameter_error("to", std::to_string(to.size()) + " positions for " +
                                             std::to_string(from.points().size()) + " vertices");
-        static_cast<void>(ideal_elements<Element>(from)); // none flat or inverted
+        static_cast<void>(impl::ideal_elements<Element>(from)); // none flat or inverted
         if (const auto flips = certify<D>(from.cells(), std::span<const vec<D>>(to)); !flips)
             throw parameter_error("to", "has " + impl::describe_defects<Element>(flips) + "; untangle it first");
         return to;
@@ -75,7 +75,7 @@ private:
         // The nearer end is pulled to it by springs.
         auto params = params_;
         shape end = t < 0.5 ? shape(from_.points().begin(), from_.points().end()) : to_;
-        const auto turn = fit_rigid_motion(std::span<const vec<D>>(end), std::span<const vec<D>>(draft));
+        const auto turn = impl::fit_rigid_motion(std::span<const vec<D>>(end), std::span<const vec<D>>(draft));
         for (auto& p : end) p = turn(p);
         params.initial = std::move(end);
         params.targets = path_.edges(t);

@@ -29,6 +29,11 @@ enum class outcome
     gave_up         ///< untangling did not succeed; the map has the fewest defects that were seen, ids are theirs
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Wall-clock seconds of the phases of one run.
 struct map_seconds
 {
@@ -50,6 +55,11 @@ struct overlap_report
     std::size_t crossings = 0; ///< crossings of the returned map, exact: 0 in valid ones
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Report of one run of parameterize(): its phases, and the measures and certificate of the map.
 struct map_report
 {
@@ -61,14 +71,14 @@ struct map_report
     impl::start_map start;                  ///< the map that was optimised; of a coarse start without uv, on its level
     std::vector<impl::level_report> levels; ///< coarser levels, in their order in time
     std::vector<vec2> pin_origins;          ///< pinned vertices in the start before they were moved to their targets
-    std::vector<stage_report> stages;       ///< all stages, also unsuccessful ones, in their order in time
+    std::vector<impl::stage_report> stages; ///< all stages, also unsuccessful ones, in their order in time
     std::vector<impl::untangle_stage_report> untangling; ///< stages that made the start injective
-    std::optional<overlap_report> overlap;               ///< with parameterize_params::no_overlap, if there is a map
+    std::optional<impl::overlap_report> overlap;         ///< with parameterize_params::no_overlap, if there is a map
     double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
     certificate flips;   ///< certificate of the returned map, exact: flips and branch points
     solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
-    map_seconds seconds;
-    queue_counters counters; ///< launches, host waits and bytes of this run
+    impl::map_seconds seconds;
+    impl::queue_counters counters; ///< launches, host waits and bytes of this run
 };
 
 inline std::ostream& operator<<(std::ostream& out, const map_report& r)

@@ -11,7 +11,7 @@ namespace taut
 map_result parameterize(queue& q, const mesh<triangle>& m, const parameterize_params& params)
 {
     const parameterize_params wanted = impl::validated(params);
-    const queue_counters before = q.counters();
+    const impl::queue_counters before = q.counters();
     impl::run_clock clock(wanted.limits.time_limit, wanted.limits.observer);
     map_result result = impl::mapped(q, impl::run_surface(m, wanted), wanted, clock);
     result.report.counters = impl::counted_since(before, q.counters());

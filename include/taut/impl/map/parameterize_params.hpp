@@ -62,7 +62,7 @@ struct parameterize_params
     /// Method of the start if there are no initial coordinates. A coarse start takes its boundary from `barycentric`
     /// and falls back to a barycentric one where it fails.
     start_method start = start_method::automatic;
-    barycentric_params barycentric = {.stretch_rounds = 10};
+    impl::barycentric_params barycentric = {.stretch_rounds = 10};
 
     /// Placement of an unconstrained map: a free boundary without pins and springs.
     taut::placement placement = placement::upright;

@@ -116,7 +116,7 @@ public:
 
     /// Continues from the last map until convergence or the end of the budget; without a map, computes the first one,
     /// as parameterize() does. Throws parameter_error, device_error.
-    session_result<Element> solve(const session_budget& budget = {})
+    session_result<Element> solve(const impl::session_budget& budget = {})
     {
         budget.validate();
         return body_->solve(budget);

@@ -8,7 +8,7 @@
 
 #include <taut/impl/map/map_result.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Limits of one call of session::solve. The first that is reached ends it. At least one step is made if there is
@@ -41,6 +41,11 @@ struct session_seconds
     double total() const { return start + constrain + follow + repair + solve + certificate; }
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Report of one call of session::solve: its steps, and the measures and certificate of the map.
 struct session_report
 {
@@ -58,9 +63,9 @@ struct session_report
     double gradient = 0;            ///< relative norm of the gradient, where pins are met
     int steps = 0;                  ///< Newton steps of this call
     certificate flips;              ///< certificate of the returned map, exact
-    session_seconds seconds;
-    std::vector<stage_report> stages; ///< stages of this call, in their order in time
-    queue_counters counters;          ///< counts of this call
+    impl::session_seconds seconds;
+    std::vector<impl::stage_report> stages; ///< stages of this call, in their order in time
+    impl::queue_counters counters;          ///< counts of this call
 };
 
 /// Result of session::solve: positions and a report; `auto [uv, report] = s.solve(...)`.

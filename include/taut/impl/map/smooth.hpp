@@ -73,7 +73,7 @@ struct smooth_result
 {
     std::vector<vec<Element::dimension>> x; ///< one per vertex, in the user's order and lengths
     session_report report;
-    shape_quality before, after; ///< after: only with coordinates
+    impl::shape_quality before, after; ///< after: only with coordinates
 
     /// True if the mesh is certified: no element is inverted.
     explicit operator bool() const { return report.outcome == outcome::valid; }
@@ -136,7 +136,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
             return ask(p);
         };
     impl::kept_directions<Element> directions(m, params.flat);
-    if (params.boundary == smooth_boundary::sliding) directions.add(boundary_facets(m, params.owners));
+    if (params.boundary == smooth_boundary::sliding) directions.add(impl::boundary_facets(m, params.owners));
     directions.add(params.kept);
     auto motion = directions.motion();
     std::vector<char> still(m.points().size(), 0);
@@ -148,7 +148,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
                                    "fixed vertex " + std::to_string(v) + " of a mesh that has " +
                                        std::to_string(m.vertex_count()) + ", counted from 0");
     if (params.boundary == smooth_boundary::fixed)
-        for (const auto& facet : boundary_facets(m, params.owners))
+        for (const auto& facet : impl::boundary_facets(m, params.owners))
             for (const idx v : facet) still[static_cast<std::size_t>(v)] = 1;
     for (std::size_t v = 0; v < still.size(); ++v)
         if (still[v]) motion.pins.repin(static_cast<idx>(v), point(m.points()[v]));

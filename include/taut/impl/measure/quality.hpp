@@ -14,7 +14,7 @@
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/measure/singular_values.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Statistics over the elements of a ratio that is 1 without distortion.
@@ -25,6 +25,11 @@ struct spread
     double rms = 0; ///< sqrt(mean((ratio - 1)^2)), every element counting 1
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Quality of a map: the distortion measures of the literature, and counts of flipped elements. Energies see the map as
 /// it is. Stretch and area are the paper's columns (Table 3) and are taken after scaling the map to the total measure
 /// of the rest mesh, the sum of unsigned mapped measures; angles do not depend on scale. Everything but the energies is
@@ -32,14 +37,14 @@ struct spread
 struct quality
 {
     certificate flips;           ///< exact
-    means isometric;             ///< |S|^2 (1 + 1/det^2), minimum 4; tetrahedra: shape * area, minimum 2
-    means shape;                 ///< |S|^2 / (D det^(2/D)), minimum 1
-    means area;                  ///< det + 1/det, minimum 2
+    impl::means isometric;       ///< |S|^2 (1 + 1/det^2), minimum 4; tetrahedra: shape * area, minimum 2
+    impl::means shape;           ///< |S|^2 / (D det^(2/D)), minimum 1
+    impl::means area;            ///< det + 1/det, minimum 2
     double scale = 1;            ///< factor that gives the map the rest mesh's measure
-    spread stretch_l2;           ///< sqrt(|S^-1|^2 / D): how the map back to the surface stretches (Sander et al. 2001)
-    spread stretch_linf;         ///< largest singular value of S^-1
+    impl::spread stretch_l2;     ///< sqrt(|S^-1|^2 / D): how the map back to the surface stretches (Sander et al. 2001)
+    impl::spread stretch_linf;   ///< largest singular value of S^-1
     double stretch_l2_total = 0; ///< sqrt of the mean of stretch_l2^2 by rest measure: Sander's norm of the whole map
-    spread area_ratio;           ///< mapped / rest measure
+    impl::spread area_ratio;     ///< mapped / rest measure
     double angular = 0;          ///< mean over all angles of triangles or faces of ((mapped - rest) / rest)^2
 };
 
@@ -167,7 +172,7 @@ namespace taut
 
 /// Measures a map. x: #V image points in the units of `ideal`.
 template <class Element>
-quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& ideal,
+quality measure_quality(const mesh<Element>& m, const impl::ideal_elements<Element>& ideal,
                         std::span<const vec<Element::dimension>> x)
 {
     constexpr int D = Element::dimension;
@@ -197,7 +202,8 @@ quality measure_quality(const mesh<Element>& m, const ideal_elements<Element>& i
                                                              [&](impl::stretch_sums& s, std::size_t c)
                                                              {
                                                                  const auto e = impl::mapped_element(m, ideal, x, c);
-                                                                 const auto sigma = singular_values<D>(q.scale * e.S);
+                                                                 const auto sigma =
+                                                                     impl::singular_values<D>(q.scale * e.S);
                                                                  double sum = 0;
                                                                  double volume = 1;
                                                                  for (const double v : sigma)
@@ -225,7 +231,7 @@ quality measure_quality(const mesh<Element>& m, std::span<const vec<Element::dim
     const double unit = impl::unit_scale(m);
     std::vector<vec<Element::dimension>> scaled(x.begin(), x.end());
     for (auto& p : scaled) p *= unit;
-    return measure_quality<Element>(m, ideal_elements<Element>(m, unit), scaled);
+    return measure_quality<Element>(m, impl::ideal_elements<Element>(m, unit), scaled);
 }
 
 } // namespace taut

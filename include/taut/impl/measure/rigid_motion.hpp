@@ -37,6 +37,11 @@ struct rigid_motion
     }
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Fits the rigid motion that takes points to their images in the sense of least squares. For collinear points, which
 /// leave the rotation about their line open, it is the one of smallest angle. Both have one length, at least 1.
 inline rigid_motion<2> fit_rigid_motion(std::span<const vec2> points, std::span<const vec2> images)
@@ -102,4 +107,4 @@ inline rigid_motion<3> fit_rigid_motion(std::span<const vec3> points, std::span<
     return m;
 }
 
-} // namespace taut
+} // namespace taut::impl

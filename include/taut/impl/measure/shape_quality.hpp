@@ -156,11 +156,6 @@ inline element_shape corner_shape(const std::array<vec3, 4>& corners, const mat3
     return s;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Shape qualities of the elements of a mesh.
 struct shape_quality
 {
@@ -185,11 +180,6 @@ struct shape_quality
         for (std::ptrdiff_t i = 0; i < shown; ++i) worst_ids.push_back(ranked[static_cast<std::size_t>(i)].second);
     }
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// shape(c, corners) of each cell.
 template <class Element, class Shape>
@@ -218,10 +208,10 @@ namespace taut
 
 /// Measures the shapes of all elements of a mesh. x: one finite position per vertex.
 template <class Element>
-shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& cells,
-                             std::span<const vec<Element::dimension>> x)
+impl::shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& cells,
+                                   std::span<const vec<Element::dimension>> x)
 {
-    return shape_quality(
+    return impl::shape_quality(
         impl::shapes_of<Element>(cells, x, [](std::size_t, const auto& corners) { return impl::shape_of(corners); }));
 }
 
@@ -229,9 +219,9 @@ shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& ce
 /// owners: the cell of each simplex, those of one together; one alone is the cell itself. regular: as for
 /// corner_shape().
 template <class Element>
-shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& simplices,
-                             std::span<const vec<Element::dimension>> x, std::span<const idx> owners,
-                             std::span<const mat<Element::dimension>> regular)
+impl::shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& simplices,
+                                   std::span<const vec<Element::dimension>> x, std::span<const idx> owners,
+                                   std::span<const mat<Element::dimension>> regular)
 {
     const auto alone = [&](std::size_t c)
     { return (c == 0 || owners[c - 1] != owners[c]) && (c + 1 == owners.size() || owners[c + 1] != owners[c]); };
@@ -250,7 +240,7 @@ shape_quality measure_shapes(const std::vector<typename mesh<Element>::cell>& si
             shapes.push_back(corners[c]);
             ids.push_back(owners[c]);
         }
-    return shape_quality(shapes, ids);
+    return impl::shape_quality(shapes, ids);
 }
 
 } // namespace taut

@@ -10,7 +10,7 @@
 
 #include <taut/impl/core/types.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Singular values of a small matrix, largest first: how far it stretches in its principal directions.
@@ -47,4 +47,4 @@ std::array<double, D> singular_values(mat<D> M)
     return s;
 }
 
-} // namespace taut
+} // namespace taut::impl

@@ -10,7 +10,7 @@
 
 #include <taut/impl/mesh/facets.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Boundary facets, oriented as the boundary of the mesh: edges with the surface to their left, or triangles whose
@@ -29,11 +29,6 @@ std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Elem
 {
     return boundary_facets(m, facets(m));
 }
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// The boundary side that starts where a boundary side of triangles ends: turns about that vertex until an edge has no
 /// twin. `f` has no clash.
@@ -54,7 +49,7 @@ namespace taut
 /// Boundary loops as vertex cycles, each with the surface to its left, starting at its smallest vertex; in the order of
 /// those. Empty for a closed surface. Around a vertex where two parts of the surface touch, each part has its own loop.
 /// Throws mesh_error (non_manifold_facet, inconsistent_orientation) where left has no meaning.
-inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const facet_table& f)
+inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const impl::facet_table& f)
 {
     if (!f.manifold())
         throw mesh_error(
@@ -69,7 +64,7 @@ inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, con
     std::vector<std::vector<idx>> loops;
     for (std::size_t start = 0; start < f.twin.size(); ++start)
     {
-        if (f.twin[start] != facet_table::boundary || seen[start]) continue;
+        if (f.twin[start] != impl::facet_table::boundary || seen[start]) continue;
         std::vector<idx> loop;
         auto side = static_cast<idx>(start);
         do {
@@ -86,7 +81,7 @@ inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, con
 
 inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m)
 {
-    return boundary_loops(m, facets(m));
+    return boundary_loops(m, impl::facets(m));
 }
 
 } // namespace taut

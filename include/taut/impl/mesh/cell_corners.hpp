@@ -14,7 +14,7 @@
 #include <taut/impl/mesh/tetrahedron.hpp>
 #include <taut/impl/mesh/triangle.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Meshes whose simplices are the corners of cells of other kinds (quads, wedges, hexahedra, ...) and overlap. Corner 0
@@ -64,11 +64,6 @@ std::vector<std::array<idx, Element::dimension>> boundary_facets(const mesh<Elem
     }
     return result;
 }
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// The simplices at the corners of a cell of the element's dimension and so many corners, in VTK's order.
 inline std::span<const std::array<std::size_t, 3>> corner_simplices(std::size_t count, triangle)

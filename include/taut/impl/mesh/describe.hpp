@@ -72,7 +72,7 @@ namespace taut
 /// Describes a fault of a mesh of `Element`s in a sentence: the count, the first ids, the fault and the remedy. owners:
 /// where these are the corners of cells, the cell of each.
 template <class Element>
-mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<const idx> owners = {})
+impl::mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<const idx> owners = {})
 {
     const std::string cells = Element::names, facets = Element::facet_names;
     const auto of_cells = [&](std::size_t group = 1)

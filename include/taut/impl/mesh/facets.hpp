@@ -12,7 +12,7 @@
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/mesh/mesh.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Table of facets (edges of triangles, faces of tetrahedra) with their two sides. Side s = corners * cell + k is the
@@ -29,11 +29,6 @@ struct facet_table
     bool manifold() const { return crowds.empty(); }                  ///< at most two cells per facet
     bool oriented() const { return crowds.empty() && clash.empty(); } ///< and neighbours agree
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// The vertices of a side, oriented as the boundary of its cell.
 template <class Element>
@@ -144,11 +139,6 @@ void sort_bucket(side_key<D>* first, side_key<D>* last)
     }
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Computes the facet table of a mesh: a counting sort by smallest vertex, then a small sort in each bucket.
 /// Time O(n log(largest valence)), memory O(n).
 template <class Element>
@@ -192,4 +182,4 @@ facet_table facets(const mesh<Element>& m)
     return f;
 }
 
-} // namespace taut
+} // namespace taut::impl

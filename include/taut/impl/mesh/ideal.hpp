@@ -49,17 +49,24 @@ mesh<Element> scaled(const mesh<Element>& m, double factor)
     return {std::move(points), m.cells()};
 }
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Jacobian S = A W^-1 (eq. 3) of the map of an element, A the edges of the image from corner 0. inverse: W^-1, upper
 /// triangular.
 inline mat2 shape_matrix(const mat2& A, const mat2& inverse)
 {
     return mat2(inverse[0][0] * A[0], inverse[1][0] * A[0] + inverse[1][1] * A[1]);
 }
+
 inline mat3 shape_matrix(const mat3& A, const mat3& inverse)
 {
     return mat3(inverse[0][0] * A[0], inverse[1][0] * A[0] + inverse[1][1] * A[1],
                 inverse[2][0] * A[0] + inverse[2][1] * A[1] + inverse[2][2] * A[2]);
 }
+
 /// Jacobian of a cell. x: one image point per vertex.
 template <int D, std::size_t N>
 mat<D> shape_matrix(const std::array<idx, N>& cell, std::span<const vec<D>> x, const mat<D>& inverse)
@@ -69,11 +76,6 @@ mat<D> shape_matrix(const std::array<idx, N>& cell, std::span<const vec<D>> x, c
     for (int k = 0; k < D; ++k) A[k] = at(static_cast<std::size_t>(k) + 1) - at(0);
     return shape_matrix(A, inverse);
 }
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Inverse of an upper triangular matrix by back substitution: no determinant, which may underflow on slivers.
 inline mat2 invert_upper(const mat2& W)
@@ -140,11 +142,6 @@ std::pair<std::vector<idx>, std::vector<idx>> bad_rest_cells(const mesh<Element>
     return bad;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Ideal elements of all cells (paper, equations 1 to 10 and 18): congruent to the cell at rest, so that S = A W^-1 is
 /// a rotation exactly where the map is an isometry, and det S is mapped / rest measure.
 template <class Element>
@@ -189,11 +186,6 @@ struct ideal_elements
         if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_fault::inverted_cell, std::move(inverted)));
     }
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Elements with the edges from corner 0 that are the columns of matrices, times `scale`, one per cell.
 /// Throws parameter_error of that name for the first that is flat or inverted.

@@ -77,6 +77,11 @@ constexpr const char* to_string(mesh_fault fault)
     return "unknown";
 }
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// One fault of a mesh, the ids it concerns, and a sentence with the remedy.
 struct mesh_finding
 {
@@ -85,11 +90,16 @@ struct mesh_finding
     std::string message;
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Error of a mesh that cannot be used. what() names the first ids and the remedy; ids() has all of them.
 class mesh_error : public error
 {
 public:
-    explicit mesh_error(mesh_finding finding)
+    explicit mesh_error(impl::mesh_finding finding)
         : error(finding.message), fault_(finding.fault), ids_(std::move(finding.ids))
     {
     }

@@ -12,7 +12,7 @@
 #include <taut/impl/mesh/hinge.hpp>
 #include <taut/impl/mesh/validate.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Attributes of a hinge that energy::shell reads.
@@ -25,6 +25,11 @@ struct shell_attributes
     static constexpr std::size_t cosine = 9, sine = 10; ///< cosine and sine of the angle between the normals at rest
     static constexpr std::size_t count = 11;
 };
+
+} // namespace taut::impl
+
+namespace taut
+{
 
 /// Thin shell: a surface in space that bends and stretches, as its hinges and their rest shapes. Vertices are those of
 /// the surface. Sums over hinges are integrals over the surface: the area of a triangle is divided equally among its
@@ -55,7 +60,7 @@ private:
 
     std::vector<mesh<hinge>::cell> find_hinges()
     {
-        const auto table = facets(surface_);
+        const auto table = impl::facets(surface_);
         const auto& cells = surface_.cells();
         hinges_of_.assign(cells.size(), 0);
         std::vector<mesh<hinge>::cell> found;
@@ -93,7 +98,7 @@ private:
         }
         const double mean_area = area / static_cast<double>(count), mean_square = squares / static_cast<double>(count);
         mean_edge_ = std::sqrt(mean_square);
-        rest_.attribute_count = shell_attributes::count;
+        rest_.attribute_count = impl::shell_attributes::count;
         for (std::size_t c = 0; c < count; ++c)
         {
             const auto x = hinges_.rest(static_cast<idx>(c));

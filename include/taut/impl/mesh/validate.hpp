@@ -8,7 +8,7 @@
 #include <taut/impl/mesh/ideal.hpp>
 #include <taut/impl/mesh/manifold.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Requirements on a mesh beyond a consistently oriented manifold with non-degenerate cells. The default for triangles
@@ -22,12 +22,18 @@ struct mesh_requirements
     bool no_handles = true;   ///< triangles: and a seam from it to itself cuts the surface apart
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Finds every fault of the mesh, one finding per kind, the most basic first. Empty: the mesh is as required. Boundary
 /// and handles are checked where the mesh is an oriented manifold. `f` are the facets of m.
 template <class Element>
-std::vector<mesh_finding> check(const mesh<Element>& m, const facet_table& f, const mesh_requirements& need = {})
+std::vector<impl::mesh_finding> check(const mesh<Element>& m, const impl::facet_table& f,
+                                      const impl::mesh_requirements& need = {})
 {
-    std::vector<mesh_finding> found;
+    std::vector<impl::mesh_finding> found;
     const auto report = [&](mesh_fault fault, std::vector<idx> ids)
     { found.push_back(describe<Element>(fault, std::move(ids))); };
     const auto report_any = [&](mesh_fault fault, std::vector<idx> ids)
@@ -77,23 +83,23 @@ std::vector<mesh_finding> check(const mesh<Element>& m, const facet_table& f, co
 }
 
 template <class Element>
-std::vector<mesh_finding> check(const mesh<Element>& m, const mesh_requirements& need = {})
+std::vector<impl::mesh_finding> check(const mesh<Element>& m, const impl::mesh_requirements& need = {})
 {
-    return check(m, facets(m), need);
+    return check(m, impl::facets(m), need);
 }
 
 /// Throws the first finding of check() as a mesh_error.
 template <class Element>
-void validate(const mesh<Element>& m, const facet_table& f, const mesh_requirements& need = {})
+void validate(const mesh<Element>& m, const impl::facet_table& f, const impl::mesh_requirements& need = {})
 {
     auto found = check(m, f, need);
     if (!found.empty()) throw mesh_error(std::move(found.front()));
 }
 
 template <class Element>
-void validate(const mesh<Element>& m, const mesh_requirements& need = {})
+void validate(const mesh<Element>& m, const impl::mesh_requirements& need = {})
 {
-    validate(m, facets(m), need);
+    validate(m, impl::facets(m), need);
 }
 
 } // namespace taut

@@ -18,7 +18,7 @@
 #include <taut/impl/energy/characteristic_value.hpp>
 #include <taut/impl/objective/element_arrays.hpp>
 #include <taut/impl/objective/element_kernels.hpp>
-#include <taut/impl/objective/held_terms.hpp>
+#include <taut/impl/objective/fixed_terms.hpp>
 #include <taut/impl/objective/sliding_terms.hpp>
 #include <taut/impl/objective/spring_terms.hpp>
 #include <taut/impl/solve/objective.hpp>
@@ -253,7 +253,7 @@ protected:
     std::shared_ptr<const element_arrays<Element>> arrays() const { return arrays_; }
 
     spring_terms<Element>& springs() { return springs_; }
-    held_terms<Element>& held() { return held_; }
+    fixed_terms<Element>& held() { return held_; }
 
     /// Projects v to the admissible displacements.
     void mask(vector& v)
@@ -373,7 +373,7 @@ private:
     real_buffer corner_gradients_;
     gather gather_;
     spring_terms<Element> springs_;
-    held_terms<Element> held_;
+    fixed_terms<Element> held_;
     sliding_terms<Element> sliding_;
     double gradient_scale_, value_scale_;
 };

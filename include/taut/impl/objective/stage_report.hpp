@@ -12,7 +12,7 @@
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/solve/report.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Report of one stage of a run: a start, a reinsertion, a minimisation, on one level. docs/reference/api.md has their
@@ -33,11 +33,6 @@ struct stage_report
     std::vector<idx> cut_by{}; ///< the corners of the elements that cut the last step, the user's numbers, each once
     double step_median = none; ///< median length of its steps; 1: the full step of the method
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// The lengths of the steps of a stage.
 class step_tally

@@ -20,7 +20,7 @@ namespace taut
 /// Certificate of a packing: overlaps, distances and fill in the given coordinates.
 struct packing_certificate
 {
-    chart_overlaps overlaps; ///< exact
+    impl::chart_overlaps overlaps; ///< exact
     /// Minimum distance of two charts in tiles, by borders, and their numbers; infinite for a single chart, 0 where
     /// borders cross. To a few ulps of the coordinates.
     double gap = std::numeric_limits<double>::infinity();

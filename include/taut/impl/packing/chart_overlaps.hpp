@@ -18,7 +18,7 @@
 #include <taut/impl/exact/predicates.hpp>
 #include <taut/impl/packing/outlines.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Overlaps of charts.
@@ -28,11 +28,6 @@ struct chart_overlaps
     bool all = true;                  ///< false: there are at least so many
     std::array<idx, 2> first{-1, -1}; ///< charts of the first pair that was found
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// True if the interiors of two triangles have a common point; exact. For either orientation.
 inline bool interiors_meet(std::array<vec2, 3> t, std::array<vec2, 3> s)
@@ -215,11 +210,6 @@ private:
     chart_overlaps found_;
 };
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Finds pairs of charts whose images overlap, in any atlas: O(n log n) where few do. Charts that touch along edges or
 /// in points do not count, nor does a chart in the hole of another. Exact for charts that are injective; of one that is
 /// folded, the union of its triangles counts. Ends at `most` pairs, or at a limit of work.
@@ -239,4 +229,4 @@ inline chart_overlaps find_chart_overlaps(std::span<const vec2> uv, std::span<co
     return search.found();
 }
 
-} // namespace taut
+} // namespace taut::impl

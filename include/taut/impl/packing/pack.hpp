@@ -10,7 +10,7 @@
 #include <taut/impl/packing/pack_params.hpp>
 #include <taut/impl/packing/packing_error.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Placement of a chart: x -> scale R x + shift, R = (cosine, -sine; sine, cosine), inside the unit square of its tile.
@@ -27,16 +27,21 @@ struct chart_place
     }
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Packing of charts into tiles.
 struct packing
 {
-    std::vector<chart_place> places; ///< one per chart
-    double scale = 0;                ///< scale of all charts, before their densities
-    double utilization = 0;          ///< area of the triangles by the area of the tiles
-    int layouts = 0;                 ///< that were tried
-    int resolution = 0;              ///< texels along the width of a tile
-    int tiles = 0;                   ///< in use, where pack_params::texels_per_unit is given; else all there are
-    bool complete = true;            ///< false: it was ended by the clock or the observer, and could be denser
+    std::vector<impl::chart_place> places; ///< one per chart
+    double scale = 0;                      ///< scale of all charts, before their densities
+    double utilization = 0;                ///< area of the triangles by the area of the tiles
+    int layouts = 0;                       ///< that were tried
+    int resolution = 0;                    ///< texels along the width of a tile
+    int tiles = 0;                         ///< in use, where pack_params::texels_per_unit is given; else all there are
+    bool complete = true;                  ///< false: it was ended by the clock or the observer, and could be denser
 
     /// The points of all charts in their tiles, with the number of its tile added to the first coordinate of each.
     /// first_vertex: #charts + 1
@@ -59,9 +64,9 @@ namespace taut::impl
 struct chart_outlines;
 
 /// Packs charts with known borders in these coordinates.
-/// draft: quickly, to compare charts with others; only places on a grid of unknown scale are found more quickly
+/// trial: quickly, to compare charts with others; only places on a grid of unknown scale are found more quickly
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params,
-                      bool draft = false);
+                      bool trial = false);
 
 } // namespace taut::impl
 

@@ -30,8 +30,8 @@ namespace taut::impl
 class packer
 {
 public:
-    packer(std::span<const piece> pieces, const pack_params& params, bool draft)
-        : pieces_(pieces), params_(params), draft_(draft), limits_(params.limits.time_limit, params.limits.observer)
+    packer(std::span<const piece> pieces, const pack_params& params, bool trial)
+        : pieces_(pieces), params_(params), trial_(trial), limits_(params.limits.time_limit, params.limits.observer)
     {
         for (const piece& p : pieces_)
         {
@@ -60,7 +60,7 @@ public:
         for (const piece& p : pieces_) longest = std::max({longest, p.box.x, p.box.y});
         const double side = estimated_side();
         search(std::max(side, longest), !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
-        if (params_.rotate && !draft_ && (pieces_.size() <= 16 || longest > 0.8 * side))
+        if (params_.rotate && !trial_ && (pieces_.size() <= 16 || longest > 0.8 * side))
             search(std::max(side, longest / std::numbers::sqrt2), 16);
         packed_.complete = !limits_.over();
         return std::move(packed_);
@@ -187,12 +187,12 @@ private:
         const std::size_t n = pieces_.size();
         const bool quick = n > 1500;
         const idx fine = quick ? 1024 : std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(n))), 512, 2048);
-        const idx cells = draft_ ? fine / 2 : fine;
+        const idx cells = trial_ ? fine / 2 : fine;
         draw(cells / length, turns);
         idx side = cells;
         tile_layout best;
         double least = std::numeric_limits<double>::infinity();
-        for (int k = 0; k < (quick || draft_ ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
+        for (int k = 0; k < (quick || trial_ ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
         {
             const double most = 1.02 * side + 1; // has its padding, too, if the layout is a little larger
             tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(most), cells_per_length_,
@@ -212,7 +212,7 @@ private:
             side = std::max<idx>(8, static_cast<idx>(std::lround(side * std::sqrt(filled))));
         }
         if (!best.complete) return;
-        if (!draft_) reorder(best, least);
+        if (!trial_) reorder(best, least);
         keep(best, least);
     }
 
@@ -310,7 +310,7 @@ private:
 
     std::span<const piece> pieces_;
     const pack_params& params_;
-    bool draft_;
+    bool trial_;
     budget limits_;
     double area_ = 0, length_ = 0;
     double gap_ = 0, border_ = 0; // in tiles
@@ -320,7 +320,7 @@ private:
     packing packed_;
 };
 
-packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params, bool draft)
+packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params, bool trial)
 {
     params.validate(outlines.charts());
     double area = 0;
@@ -328,7 +328,7 @@ packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, 
     if (!(area > 0)) throw packing_error(packing_fault::no_area, {}, "the charts have no area; flatten them again");
     const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
     if (params.on_grid()) return grid_packer(pieces, params).run();
-    packing packed = packer(pieces, params, draft).run();
+    packing packed = packer(pieces, params, trial).run();
     packed.resolution = params.resolution;
     packed.tiles = params.tiles;
     return packed;

@@ -83,11 +83,6 @@ constexpr bool is_fault(repair_kind kind)
            kind != repair_kind::contradicting_normal;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Defects of one kind, with the ids they concern.
 struct repair_finding
 {
@@ -99,20 +94,25 @@ struct repair_finding
     std::string message() const { return problem + "; " + action; }
 };
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Error of an input of which no triangle is left after repair.
 class repair_error : public error
 {
 public:
-    repair_error(const std::string& what, std::vector<repair_finding> findings)
+    repair_error(const std::string& what, std::vector<impl::repair_finding> findings)
         : error(what), findings_(std::move(findings))
     {
     }
 
     /// Defects for which all triangles were removed.
-    const std::vector<repair_finding>& findings() const noexcept { return findings_; }
+    const std::vector<impl::repair_finding>& findings() const noexcept { return findings_; }
 
 private:
-    std::vector<repair_finding> findings_;
+    std::vector<impl::repair_finding> findings_;
 };
 
 } // namespace taut

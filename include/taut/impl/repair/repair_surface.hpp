@@ -42,18 +42,28 @@ struct repair_params
 /// if there is no finite size. At most 1e-3 of the size.
 double usual_weld_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Counts the open edges that repair_surface() would stitch with this tolerance. bodies: as repair_params has them
 std::size_t count_near_edges(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
                              double weld_tolerance, std::span<const idx> bodies = {});
 
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Result of repair_surface(): a surface, and what was repaired.
 struct repaired_surface
 {
-    mesh<triangle> surface;               ///< an oriented manifold of one or more parts, no triangle flat
-    std::vector<idx> vertex_origins;      ///< the vertex of the input, one per vertex; of welded ones the smallest
-    std::vector<idx> cell_origins;        ///< the triangle of the input, one per triangle, increasing
-    std::vector<char> turned;             ///< one per triangle: 1 where corners 1 and 2 have changed places
-    std::vector<repair_finding> findings; ///< one per kind, in their order
+    mesh<triangle> surface;          ///< an oriented manifold of one or more parts, no triangle flat
+    std::vector<idx> vertex_origins; ///< the vertex of the input, one per vertex; of welded ones the smallest
+    std::vector<idx> cell_origins;   ///< the triangle of the input, one per triangle, increasing
+    std::vector<char> turned;        ///< one per triangle: 1 where corners 1 and 2 have changed places
+    std::vector<impl::repair_finding> findings; ///< one per kind, in their order
 
     /// The corner of triangle cell_origins[c] of the input that corner k of triangle c is.
     std::size_t corner_origin(std::size_t c, std::size_t k) const { return turned[c] != 0 && k > 0 ? 3 - k : k; }

@@ -399,6 +399,11 @@ double usual_weld_tolerance(std::span<const vec3> points, std::span<const std::a
     return std::isfinite(usual) ? usual : 0;
 }
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 std::size_t count_near_edges(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
                              double weld_tolerance, std::span<const idx> bodies)
 {
@@ -423,6 +428,11 @@ std::size_t count_near_edges(std::span<const vec3> points, std::span<const std::
         return 0;
     }
 }
+
+} // namespace taut::impl
+
+namespace taut
+{
 
 repaired_surface repair_surface(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
                                 const repair_params& params)

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Coefficient beta of Algorithm 1, line 2, as a rule for `descent`. With s = a d_k of the step before, beta d_k =
@@ -59,4 +59,4 @@ report conjugate_gradient(Objective& f, typename Objective::point& x, const conj
     return impl::descent(f, x, h, conjugate_rule(params), common, ask).run();
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -3,7 +3,7 @@
 
 #include <taut/impl/solve/descent.hpp>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Minimises f from x by steepest descent, d = -gamma g with gamma = s'y / y'y of the last step (Nocedal & Wright,
@@ -19,4 +19,4 @@ report gradient_descent(Objective& f, typename Objective::point& x, const impl::
     return impl::descent(f, x, h, impl::no_momentum{}, common, ask).run();
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// The vector space of std::vector<T> with a fixed number of components: the host model, for tests and small problems.
@@ -62,9 +62,14 @@ private:
     std::size_t components_;
 };
 
-/// Vector space of std::vector<double>.
-using host_space = basic_host_space<double>;
+} // namespace taut::solve::impl
 
-static_assert(vector_space<host_space> && vector_space<const basic_host_space<float>>);
+namespace taut::solve
+{
+
+/// Vector space of std::vector<double>.
+using host_space = impl::basic_host_space<double>;
+
+static_assert(vector_space<host_space> && vector_space<const impl::basic_host_space<float>>);
 
 } // namespace taut::solve

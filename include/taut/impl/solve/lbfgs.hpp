@@ -3,7 +3,7 @@
 
 #include <taut/impl/solve/descent.hpp>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Minimises f from x by d = -H_k g_k with the last m pairs in H_k (Nocedal & Wright, Algorithm 7.5). An objective with
@@ -23,4 +23,4 @@ report lbfgs(Objective& f, typename Objective::point& x, const lbfgs_params& par
     return impl::descent(f, x, h, impl::no_momentum{}, common, ask).run();
 }
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -21,7 +21,7 @@ report minimize(Objective& f, typename Objective::point& x, const params& p = {}
     {
     case method::automatic:
     case method::newton:
-        if constexpr (has_hessian<Objective>)
+        if constexpr (impl::has_hessian<Objective>)
         {
             p.require_newton_search();
             return newton(f, x, p.tuning.newton, p.newton_common(), ask);
@@ -29,13 +29,13 @@ report minimize(Objective& f, typename Objective::point& x, const params& p = {}
         if (p.method == method::newton) throw parameter_error("method", "newton needs an objective with a Hessian");
         break;
     case method::conjugate_gradient:
-        return conjugate_gradient(f, x, p.conjugate_gradient, p.common(), ask);
+        return impl::conjugate_gradient(f, x, p.conjugate_gradient, p.common(), ask);
     case method::gradient_descent:
-        return gradient_descent(f, x, p.common(), ask);
+        return impl::gradient_descent(f, x, p.common(), ask);
     case method::lbfgs:
         break;
     }
-    return lbfgs(f, x, p.lbfgs, p.common(), ask);
+    return impl::lbfgs(f, x, p.lbfgs, p.common(), ask);
 }
 
 } // namespace taut::solve

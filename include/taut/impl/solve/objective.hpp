@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Vector space type of an objective, without the reference but with a const of its own.
@@ -17,6 +17,11 @@ using space_of = std::remove_reference_t<decltype(std::declval<O&>().space())>;
 /// Vector type of an objective, for gradients and directions.
 template <class O>
 using vector_of = typename space_of<O>::vector;
+
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 /// Objective f to be minimised. Points and vectors may be of different types: positions in double, gradients and
 /// directions in float.
@@ -56,8 +61,9 @@ using vector_of = typename space_of<O>::vector;
 /// |                                   | where it is above that of double                                         |
 /// | `waits()`                         | how often the host has waited for a device so far                        |
 template <class O>
-concept objective = vector_space<space_of<O>> &&
-    requires(O& f, const typename O::point& x, typename O::point& out, double a, const vector_of<O>& d, vector_of<O>& g)
+concept objective = vector_space<impl::space_of<O>> &&
+    requires(O& f, const typename O::point& x, typename O::point& out, double a, const impl::vector_of<O>& d,
+             impl::vector_of<O>& g)
 {
     {
         f.make_point()
@@ -71,6 +77,11 @@ concept objective = vector_space<space_of<O>> &&
         } -> std::convertible_to<double>;
     f.step(x, a, d, out);
 };
+
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
 
 /// Optional preconditioner: `precondition(v, out)`, out = H0 v with H0 symmetric positive definite, an approximation of
 /// the inverse Hessian up to a factor. It may change between iterations but not within one.
@@ -91,21 +102,11 @@ concept has_hessian = has_precondition<O> &&
     f.hessian_product(v, out);
 };
 
-} // namespace taut::solve
-
-namespace taut::solve::impl
-{
-
 /// A value of f, and the change that a quadratic model of it expects along some step.
 struct model_change
 {
     double value, change;
 };
-
-} // namespace taut::solve::impl
-
-namespace taut::solve
-{
 
 /// Requirements for bringing coordinates of a point to prescribed values: `linearize_towards(x, share, d, g)` does what
 /// `linearize(x, false)` does, and puts the fraction `share` of the remaining displacement of the prescribed
@@ -122,4 +123,4 @@ concept has_prescribed = has_hessian<O> &&
     f.put(x);
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

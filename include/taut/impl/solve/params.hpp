@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Constants of the Wolfe conditions (Nocedal & Wright, Numerical Optimization, 2nd ed., section 3.1).
@@ -32,7 +32,19 @@ struct wolfe_params
     }
 };
 
-enum class line_search_method : int; // solve/line/line_search.hpp has their names, and includes them
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
+
+enum class line_search_method : int;
+
+} // namespace taut::solve
+
+namespace taut::solve::impl
+{
+
+// solve/line/line_search.hpp has their names, and includes them
 
 /// Line search parameters of the descent methods. Newton's method has a search of its own, which takes
 /// wolfe.sufficient_decrease, barrier_fraction and rounding alone (newton_search_params).
@@ -113,15 +125,10 @@ struct stopping_params
     }
 };
 
-} // namespace taut::solve
-
-namespace taut::solve::impl
-{
-
 /// Common parameters of all descent methods.
 struct descent_params
 {
-    solve::line_search_params line_search = {};
+    solve::impl::line_search_params line_search = {};
     stopping_params stopping = {};
 
     /// Length of the first direction, a guess of the distance to go; a wrong one costs trial steps in the first
@@ -142,11 +149,6 @@ struct descent_params
     }
 };
 
-} // namespace taut::solve::impl
-
-namespace taut::solve
-{
-
 /// Choice of the factor gamma of H0 = gamma I (or gamma times the objective's own H0).
 enum class scaling
 {
@@ -160,7 +162,7 @@ struct memory_params
     /// m: pairs (s, y) kept. Range 0..64; 0 leaves H0. 5 to 20 are usual: more memory, fewer iterations.
     int pairs = 8;
 
-    solve::scaling scaling = solve::scaling::newest;
+    solve::impl::scaling scaling = solve::impl::scaling::newest;
 
     /// A pair with s'y <= cautious |s| |y| is left out (Li & Fukushima 2001), which keeps H positive definite.
     /// Range [0, 1). Raise it where gradients are noisy.
@@ -181,11 +183,6 @@ struct lbfgs_params
     void validate() const { memory.validate(); }
 };
 
-} // namespace taut::solve
-
-namespace taut::solve::impl
-{
-
 /// beta of the conjugate directions, in the inner product of the preconditioner H = H_{k+1}. Negative ones, which
 /// inexact searches that stop short produce, become 0 (Nocedal & Wright, 5.45, for either formula).
 enum class conjugacy
@@ -193,11 +190,6 @@ enum class conjugacy
     hestenes_stiefel, ///< y'H g_{k+1} / y'd_k: the paper's
     polak_ribiere     ///< y'H g_{k+1} / g_k'H g_k: "PR+"
 };
-
-} // namespace taut::solve::impl
-
-namespace taut::solve
-{
 
 /// Parameters of the paper's preconditioned nonlinear conjugate gradient method.
 struct conjugate_gradient_params
@@ -218,11 +210,6 @@ struct conjugate_gradient_params
         if (restart_interval < 0) throw parameter_error("conjugate_gradient.restart_interval", "must not be negative");
     }
 };
-
-} // namespace taut::solve
-
-namespace taut::solve::impl
-{
 
 /// Line search parameters of Newton's method: the best of the full step and fractions of it. As in line_search_params.
 struct newton_search_params
@@ -274,10 +261,10 @@ enum class method
 struct params
 {
     solve::method method = solve::method::automatic;
-    lbfgs_params lbfgs = {};
-    conjugate_gradient_params conjugate_gradient = {};
-    line_search_params line_search = {};
-    stopping_params stopping = {};
+    impl::lbfgs_params lbfgs = {};
+    impl::conjugate_gradient_params conjugate_gradient = {};
+    impl::line_search_params line_search = {};
+    impl::stopping_params stopping = {};
 
     /// Not for users: what tests and measurements set.
     impl::tuning tuning = {};

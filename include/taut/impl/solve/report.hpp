@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Record of one accepted iterate; number 0 is the start.
@@ -26,6 +26,11 @@ struct history_entry
     double seconds = 0;      ///< since the start of the run
     std::uint64_t waits = 0; ///< host waits for a device, since the start of the run
 };
+
+} // namespace taut::solve::impl
+
+namespace taut::solve
+{
 
 /// Report of a minimisation. Values in the history never increase by more than the rounding error of a value.
 struct report
@@ -44,7 +49,7 @@ struct report
     double seconds = 0;       ///< wall-clock seconds of the whole run
     std::uint64_t waits = 0;  ///< host waits for a device (Newton's method)
     std::vector<int> capping; ///< parts of the problem whose barrier cut the last step of Newton's method, if one did
-    std::vector<history_entry> history;
+    std::vector<impl::history_entry> history;
 };
 
 } // namespace taut::solve

@@ -12,7 +12,7 @@
 #include <limits>
 #include <optional>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Record of an accepted step, for the stopping tests.
@@ -31,11 +31,6 @@ struct step_record
 
     bool newton = false; ///< a step of Newton's method, of which few are worth much
 };
-
-} // namespace taut::solve
-
-namespace taut::solve::impl
-{
 
 /// The tests of stopping_params over a run, with their memory of the steps before.
 class stopping_test

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernels/block_sparse.hpp>
 #include <taut/impl/compute/lane_form.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 #include <taut/impl/compute/vector_space.hpp>
 #include <taut/impl/sparse/block_pattern.hpp>
 

@@ -19,12 +19,22 @@ enum class boundary_spacing
     centripetal
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
 /// Parameters of the fixed boundary of a barycentric map.
 struct boundary_params
 {
     boundary_shape shape = boundary_shape::circle;
     boundary_spacing spacing = boundary_spacing::chord;
 };
+
+} // namespace taut::impl
+
+namespace taut
+{
 
 /// Weights that make each free vertex a mean of its neighbours.
 ///
@@ -36,6 +46,11 @@ enum class barycentric_weights
     uniform,
     mean_value
 };
+
+} // namespace taut
+
+namespace taut::impl
+{
 
 /// Parameters of a barycentric map onto a convex polygon.
 struct barycentric_params
@@ -49,4 +64,4 @@ struct barycentric_params
     int stretch_rounds = 0;
 };
 
-} // namespace taut
+} // namespace taut::impl

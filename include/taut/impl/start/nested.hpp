@@ -31,7 +31,7 @@ struct nested_params
     std::function<std::vector<directed_spring<2>>(std::size_t level)> springs = {};
     /// Stopping criteria of a level. `base` is set to the energy at rest, so that nearly developable surfaces are
     /// solved to enough digits.
-    solve::stopping_params stopping = {
+    solve::impl::stopping_params stopping = {
         .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .max_iterations = 100, .tuning = {.decrease_count = 1}};
     /// Number of consecutive small decreases that end a level of at most so many vertices: iterations are cheap there,
     /// and extreme shapes (long tubes) pause.

@@ -31,7 +31,7 @@ public:
 
 private:
     /// Regularised energy as a term of plane_newton.
-    struct term : energy::regularized<2>
+    struct term : energy::impl::regularized<2>
     {
         bool barrier() const { return eps == 0; }
         double value(const std::array<vec2, 3>&, const mat2& S) const { return (*this)(S); }

@@ -35,7 +35,7 @@ public:
             return;
         }
         const double sigma = std::clamp(1 - after / before, std::clamp(pace_ * std::sqrt(t), 0.1 * pace_, pace_), 0.9);
-        const double chi = (1 - sigma) * energy::regularized<2>{.eps = eps_}.chi(least);
+        const double chi = (1 - sigma) * energy::impl::regularized<2>{.eps = eps_}.chi(least);
         eps_ = least < chi ? std::max(floor, 2 * std::sqrt(chi * (chi - least))) : floor;
     }
 

@@ -72,7 +72,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
         result.stage = "initial";
     else
     {
-        infeasibility proof = find_infeasibility(problem);
+        impl::infeasibility proof = find_infeasibility(problem);
         if (proof) state.disprove(std::move(proof.proofs.front()));
         state.ended("proofs", proof ? "infeasible" : "");
         if (!proof) result.stage = impl::run_stages(state, stages, params);

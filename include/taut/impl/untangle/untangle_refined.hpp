@@ -54,11 +54,6 @@ struct refined_problem
     std::string obstacle = {};   ///< the proof that no split refutes, or which limit was met; empty: none
 };
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Result of untangle_refined(): the untangling, and the refined mesh.
 template <class Element>
 struct refined_untangling
@@ -66,11 +61,6 @@ struct refined_untangling
     untangle_result<Element> result; ///< ids of elements are those of the refined mesh
     impl::refined_problem<Element> refined;
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Transfers a problem to a refined mesh: new vertices are free and at the centres of the split simplices, target
 /// shapes are those of the parent elements.
@@ -95,7 +85,7 @@ refined_problem<Element> refine_problem(const untangle_problem<Element>& p, cons
             wanted.push_back(p.wanted[k] * std::pow(1 / parts[k], 1.0 / D)); // together they count as the whole
         }
     }
-    refined_problem<Element> result{{std::move(rest), moved(p.initial), held_marks<D>(std::move(bits))}};
+    refined_problem<Element> result{{std::move(rest), moved(p.initial), fixed_marks<D>(std::move(bits))}};
     if (!p.draft.empty()) result.problem.draft = moved(p.draft);
     result.problem.wanted = std::move(wanted);
     result.how = how;
@@ -232,8 +222,8 @@ namespace taut
 /// for all splits inside the mesh; reason says what.
 /// Throws parameter_error as untangle() and refine_problem() do, device_error.
 template <class Element>
-refined_untangling<Element> untangle_refined(const queue& q, const untangle_problem<Element>& problem,
-                                             const untangle_params& params = {}, const refine_params& refine = {})
+impl::refined_untangling<Element> untangle_refined(const queue& q, const untangle_problem<Element>& problem,
+                                                   const untangle_params& params = {}, const refine_params& refine = {})
 {
     const impl::budget clock(params.limits.time_limit);
     bool refused = false;

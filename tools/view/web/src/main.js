@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 import * as messages from './messages.js';
-import { Mesh, distortion } from './mesh.js';
-import { Pane, rest } from './pane.js';
+
+const { Mesh, Pane, distortion, rest } = scene;
 
 const element = (id) => document.getElementById(id);
 const accent = { pin: '#e8590c', ahead: '#d6336c', current: '#7048e8', line: '#2f9e44' };

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The report of an atlas: model and atlas linked, and what is to be known of both.
-import { BufferAttribute, BufferGeometry, GreaterDepth, LineBasicMaterial, LineSegments, Vector3 } from 'three';
 import { drawHistogram, drawStages } from './charts.js';
-import { Mesh } from './mesh.js';
-import { Pane } from './pane.js';
 import { ChartTable, plain } from './table.js';
+
+const { BufferAttribute, BufferGeometry, GreaterDepth, LineBasicMaterial, LineSegments, Mesh, Pane, Vector3 } = scene;
 
 const element = (id) => document.getElementById(id);
 

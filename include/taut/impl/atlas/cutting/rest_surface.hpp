@@ -59,7 +59,7 @@ struct rest_surface
                        .inverse = {},
                        .rim = {},
                        .first_span = first_span};
-        r.facets = taut::facets(r.surface);
+        r.facets = taut::impl::facets(r.surface);
         r.sides = starting_sides(r.surface);
         r.rim.assign(r.surface.points().size(), 0);
         for (idx c = 0; c < r.triangles(); ++c)

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include <taut/impl/dist/file/line_layout.hpp>
-#include <taut/impl/io/detail/scanner.hpp>
+#include <taut/impl/io/file/scanner.hpp>
 
 namespace taut::dist::impl
 {

@@ -16,7 +16,7 @@ namespace taut::dist::impl
 
 /// Collective. Shapes of the cells of all processes, given by their corners. The numbers of the worst are their places
 /// among all, by process.
-inline shape_quality piece_shapes(const communicator& all, const std::vector<std::array<vec3, 4>>& cells)
+inline taut::impl::shape_quality piece_shapes(const communicator& all, const std::vector<std::array<vec3, 4>>& cells)
 {
     struct ranked
     {
@@ -27,7 +27,7 @@ inline shape_quality piece_shapes(const communicator& all, const std::vector<std
             return mean_ratio != other.mean_ratio ? mean_ratio < other.mean_ratio : cell < other.cell;
         }
     };
-    shape_quality q;
+    taut::impl::shape_quality q;
     shared_sums sums(2);
     std::vector<ranked> worst;
     const auto count = static_cast<std::int64_t>(cells.size());

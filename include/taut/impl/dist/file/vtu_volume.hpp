@@ -21,7 +21,7 @@
 
 #include <taut/impl/dist/file/ranged_volume.hpp>
 #include <taut/impl/dist/file/su2_lines.hpp>
-#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
 #include <taut/impl/io/volume/xml.hpp>
 
 namespace taut::dist::impl

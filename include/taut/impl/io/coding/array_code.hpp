@@ -17,7 +17,7 @@
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/io/coding/base64.hpp>
 #include <taut/impl/io/coding/compressor.hpp>
-#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
 
 namespace taut::io::impl
 {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/detail/scanner.hpp>
-#include <taut/impl/io/detail/text_list.hpp>
+#include <taut/impl/io/file/scanner.hpp>
+#include <taut/impl/io/file/text_list.hpp>
 
 namespace taut::io::impl
 {

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
 #include <taut/impl/io/ply/header.hpp>
 
 namespace taut::io::impl

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
-#include <taut/impl/io/detail/turned_cells.hpp>
 #include <taut/impl/io/volume/groups.hpp>
 #include <taut/impl/io/volume/numbering.hpp>
 #include <taut/impl/io/volume/numbers.hpp>
+#include <taut/impl/io/volume/turned_cells.hpp>
 #include <taut/impl/io/volume_file.hpp>
 
 namespace taut::io::impl

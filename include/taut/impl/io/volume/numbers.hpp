@@ -9,8 +9,8 @@
 #include <limits>
 #include <string>
 
-#include <taut/impl/io/detail/byte_order.hpp>
-#include <taut/impl/io/detail/scanner.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
+#include <taut/impl/io/file/scanner.hpp>
 #include <taut/impl/io/volume_file.hpp>
 
 namespace taut::io::impl

@@ -91,10 +91,10 @@ inline void require_planar(const volume_file& file)
 namespace taut::io
 {
 
-const volume_group& volume_file::find_group(std::string_view name) const
+const impl::volume_group& volume_file::find_group(std::string_view name) const
 {
     const bool number = !name.empty() && name.find_first_not_of("-0123456789") == name.npos;
-    const volume_group* found = nullptr;
+    const impl::volume_group* found = nullptr;
     std::size_t count = 0;
     for (const auto& g : groups)
     {

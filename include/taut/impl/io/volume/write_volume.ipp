@@ -19,7 +19,7 @@
 
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/core/single.hpp>
-#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
 #include <taut/impl/io/io_error.hpp>
 #include <taut/impl/io/volume/formats.hpp>
 #include <taut/impl/io/volume/numbers.hpp>

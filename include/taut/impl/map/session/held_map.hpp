@@ -95,7 +95,7 @@ protected:
     }
 
     /// One per vertex, also where nothing is fixed.
-    held_marks<D> marks() const { return held_.marks().empty() ? held_marks<D>(last.x.size()) : held_.marks(); }
+    fixed_marks<D> marks() const { return held_.marks().empty() ? fixed_marks<D>(last.x.size()) : held_.marks(); }
 
     map user_coordinates() const { return unscaled(live_->coordinates()); }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/core/linalg.hpp>
 
 namespace taut::impl
@@ -31,7 +31,7 @@ public:
     /// Replaces the pins; returns whether the set of fixed coordinates has changed.
     bool take(const constraints<Element>& wanted)
     {
-        held_marks<D> marks(places_.size());
+        fixed_marks<D> marks(places_.size());
         for (const idx v : fixed_)
         {
             marks[static_cast<std::size_t>(v)] = marks.every;
@@ -48,7 +48,7 @@ public:
         return true;
     }
 
-    const held_marks<D>& marks() const { return marks_; }
+    const fixed_marks<D>& marks() const { return marks_; }
     const std::vector<slide<D>>& slides() const { return slides_; }
     const map& places() const { return places_; } ///< of fixed coordinates; the others mean nothing
 
@@ -96,7 +96,7 @@ private:
     map start_, places_;
     std::vector<idx> fixed_;
     std::vector<slide<D>> slides_;
-    held_marks<D> marks_;
+    fixed_marks<D> marks_;
 };
 
 } // namespace taut::impl

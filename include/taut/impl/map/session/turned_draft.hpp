@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
-#include <taut/impl/constrain/held_paths.hpp>
+#include <taut/impl/constrain/fixed_paths.hpp>
 #include <taut/impl/constrain/untangle_problem.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/exact/certify.hpp>
@@ -30,7 +30,7 @@ namespace taut::impl
 /// change fast.
 /// from: the current shape, no element inverted; to: the targets, of which fixed coordinates are read.
 inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
-                                      const held_paths<3>& paths, const held_marks<3>& marks,
+                                      const fixed_paths<3>& paths, const fixed_marks<3>& marks,
                                       const std::vector<vec3>& from, const std::vector<vec3>& to)
 {
     std::vector<vec3> held, places;
@@ -42,7 +42,7 @@ inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, 
         }
     const auto whole = fit_rigid_motion(std::span<const vec3>(held), std::span<const vec3>(places));
     std::vector<vec3> turns(from.size(), whole.angle * whole.axis), x;
-    held_marks<3> told(from.size());
+    fixed_marks<3> told(from.size());
     for (std::size_t v = 0; v < from.size(); ++v)
     {
         x.push_back(whole(from[v]));
@@ -131,7 +131,7 @@ public:
         const gradient_fit<tetrahedron> poisson(here, p.draft);
         mended_draft found = from_coarser(p, here, poisson);
         if (!found.x.empty() && mend(p, here, poisson, found)) return found;
-        const held_paths<3> paths(p.rest.cells(), p.held, p.draft, p.initial);
+        const fixed_paths<3> paths(p.rest.cells(), p.held, p.draft, p.initial);
         if (paths.parts() == 1 || !clock_.in_time()) return without_shape(found);
         found.x = turned_draft(poisson, here, paths, p.held, p.draft, p.initial);
         return mend(p, here, poisson, found) ? found : without_shape(found);
@@ -208,7 +208,7 @@ private:
     {
         live_map<tetrahedron> live(queue_, p.rest, deform_params<tetrahedron>{}, arithmetic_, found.x);
         live.constrain(p.held, {}, {});
-        const solve::stopping_params enough{
+        const solve::impl::stopping_params enough{
             .gradient_tolerance = gradient, .max_iterations = steps, .time_limit = clock_.left()};
         found.steps += live.minimize({.stopping = enough}, how_.limits.observer).iterations;
         found.x = live.coordinates();

@@ -5,7 +5,7 @@
 
 #include <taut/impl/solve/line/line_search.hpp>
 
-namespace taut::solve
+namespace taut::solve::impl
 {
 
 /// Type-erased line function, so that the line searches are compiled once, whatever the objectives: a call costs
@@ -70,4 +70,4 @@ private:
     const calls* calls_;
 };
 
-} // namespace taut::solve
+} // namespace taut::solve::impl

@@ -31,11 +31,6 @@ struct search_result
     line_point at;
 };
 
-} // namespace taut::solve::impl
-
-namespace taut::solve
-{
-
 /// Line function phi of a line search. Values outside the domain are +inf, never NaN, and so is every value once
 /// interrupted() is true: searches then run dry and their caller asks why.
 ///
@@ -83,11 +78,6 @@ concept line_function = requires(L& phi, double a, std::span<const double> steps
         phi.interrupted()
         } -> std::convertible_to<bool>;
 };
-
-} // namespace taut::solve
-
-namespace taut::solve::impl
-{
 
 /// Non-finite values are outside the domain.
 inline double finite_or_inf(double value) noexcept

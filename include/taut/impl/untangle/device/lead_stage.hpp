@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/constrain/held_paths.hpp>
+#include <taut/impl/constrain/fixed_paths.hpp>
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/untangle/device/live_map.hpp>
@@ -50,7 +50,7 @@ public:
         impl::live_map<Element> live(queue_, problem.rest, params, how, x);
         live.constrain(problem.held, {}, {});
 
-        const held_paths<D> paths(problem.rest.cells(), problem.held, x, problem.initial);
+        const fixed_paths<D> paths(problem.rest.cells(), problem.held, x, problem.initial);
         for (int part = 1; part <= paths.parts(); ++part)
         {
             if (!state.proceed(0)) return false;
@@ -79,7 +79,7 @@ private:
         return x;
     }
 
-    static double largest_gap(const held_marks<D>& marks, const map& x, const map& way)
+    static double largest_gap(const fixed_marks<D>& marks, const map& x, const map& way)
     {
         double most = 0;
         for (std::size_t v = 0; v < x.size(); ++v)

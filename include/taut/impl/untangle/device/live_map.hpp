@@ -50,7 +50,7 @@ public:
     }
 
     /// Replaces the constraints, in the user's numbering; marks: which coordinates are fixed, one per vertex, or none.
-    void constrain(const held_marks<D>& marks, const std::vector<directed_spring<D>>& springs,
+    void constrain(const fixed_marks<D>& marks, const std::vector<directed_spring<D>>& springs,
                    const std::vector<slide<D>>& slides)
     {
         auto c = point_constraints<D>{marks, springs, slides}.renumbered(numbers_);

@@ -21,7 +21,7 @@ namespace taut::impl
 /// Regularised energy as an energy of kernels.
 inline any_energy regularized_energy(double eps, double area_weight)
 {
-    return any_energy(energy::regularized_element{}).with_parameters({eps, area_weight});
+    return any_energy(energy::impl::regularized_element{}).with_parameters({eps, area_weight});
 }
 
 /// Plan of a problem: the mesh with the target shapes in place of its own, which may be flat, and the coarser levels of

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/detail/few_functions.hpp>
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/kernels/untangle.hpp>
+#include <taut/impl/compute/program/few_functions.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/untangle/device/operator_arrays.hpp>

@@ -72,11 +72,6 @@ struct infeasibility_finding
     std::string message;
 };
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Proof that pins are infeasible, found before anything is solved.
 struct infeasibility
 {
@@ -99,4 +94,4 @@ struct infeasibility
     }
 };
 
-} // namespace taut
+} // namespace taut::impl

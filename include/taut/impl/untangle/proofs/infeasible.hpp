@@ -134,7 +134,7 @@ namespace taut
 /// winding number is positive. Within a simple boundary no point is covered twice, so no edges meet; elsewhere overlap
 /// is no proof: a staircase in spirals has positive triangles only.
 template <class Element>
-infeasibility find_infeasibility(const untangle_problem<Element>& problem)
+impl::infeasibility find_infeasibility(const untangle_problem<Element>& problem)
 {
     problem.validate();
     if (!problem.sliding.empty())
@@ -144,12 +144,12 @@ infeasibility find_infeasibility(const untangle_problem<Element>& problem)
         sure.sliding.clear();
         return find_infeasibility(sure);
     }
-    infeasibility found;
+    impl::infeasibility found;
     impl::judge_elements(problem, found);
     if (!problem.owners.empty()) return found; // the others are of meshes that do not overlap
     if constexpr (Element::dimension == 2) impl::judge_stars(problem, found);
     if constexpr (Element::dimension == 2) impl::judge_winding(problem, found);
-    const auto f = facets(problem.rest);
+    const auto f = impl::facets(problem.rest);
     impl::judge_patches(problem, f, found);
     if constexpr (Element::dimension == 2) impl::judge_places(problem, f, found);
     return found;

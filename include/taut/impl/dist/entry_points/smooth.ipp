@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/dist/smooth.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/constrain/boundary_slides.hpp>
+#include <taut/impl/dist/shape_body.hpp>
+#include <taut/impl/energy/shape_power.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+
+namespace taut::dist::impl
+{
+
+/// What keeps the boundary of a part: fixed coordinates of owned vertices, and projections of those that slide.
+template <class Element>
+struct kept_boundary
+{
+    constraints<Element> pins;
+    std::vector<mat<Element::dimension>> slides; ///< one a vertex of the part
+};
+
+/// Facets of owned vertices have all their elements in the part; others may look like the boundary.
+template <class Element>
+kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& params)
+{
+    constexpr int D = Element::dimension;
+    kept_boundary<Element> kept;
+    kept.slides.assign(p.size(), mat<D>(1.0));
+    if (p.corners.empty() || params.boundary == smooth_boundary::free) return kept;
+    const mesh<Element> m(p.points, p.corners);
+    auto facets = taut::impl::boundary_facets(m);
+    std::erase_if(facets,
+                  [&](const auto& f) { return std::none_of(f.begin(), f.end(), [&](idx v) { return p.owns(v); }); });
+    if (params.boundary == smooth_boundary::fixed)
+    {
+        std::vector<char> seen(p.size(), 0);
+        for (const auto& f : facets)
+            for (const idx v : f)
+                if (const auto at = static_cast<std::size_t>(v); p.owns(v) && seen[at]++ == 0)
+                    kept.pins.pin(p.ids[at], vec<D>(p.points[at]));
+        return kept;
+    }
+    taut::impl::kept_directions<Element> directions(m, params.flat);
+    directions.add(std::span<const std::array<idx, static_cast<std::size_t>(D)>>(facets));
+    const auto motion = directions.motion();
+    for (const auto& [v, pin] : motion.pins.pins())
+        for (int k = 0; k < D; ++k)
+            if (p.owns(v) && (pin.held >> k & 1U) != 0)
+                kept.pins.pin(p.ids[static_cast<std::size_t>(v)], k, pin.value[k]);
+    for (const auto& s : motion.slides)
+        if (p.owns(s.vertex)) kept.slides[static_cast<std::size_t>(s.vertex)] = s.projection;
+    return kept;
+}
+
+} // namespace taut::dist::impl
+
+namespace taut::dist
+{
+
+template <class Element>
+result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params)
+{
+    constexpr int D = Element::dimension;
+    const impl::communicator all(comm);
+    all.together([&] { params.validate(); });
+    const deform_params<Element> how{.energy = energy::shape_power{params.worst_exponent},
+                                     .weights = energy::weighting::uniform,
+                                     .shapes = target_shapes::regular,
+                                     .solve = params.solve,
+                                     .solver = params.solver,
+                                     .queue = params.queue,
+                                     .limits = params.limits};
+    session<Element> s(comm, piece, how);
+    const auto& p = s.body().mesh_part();
+    impl::kept_boundary<Element> kept;
+    all.together([&] { kept = impl::boundary_of(p, params); });
+    // Fixed ones are where they are, wherever that is known.
+    const auto numbers = p.find(params.fixed);
+    impl::parcels<std::int64_t> to(all.ranks());
+    all.together(
+        [&]
+        {
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+            {
+                if (numbers[i] < 0)
+                    throw constraint_error(constraint_fault::out_of_range, {},
+                                           "fixed vertex " + std::to_string(params.fixed[i]) +
+                                               " is none of the mesh; count from 0");
+                const auto at = p.place_of(numbers[i]);
+                to[at.rank].push_back(at.place);
+            }
+        });
+    for (const std::int64_t v : all.exchange(to).items)
+    {
+        const auto at = static_cast<std::size_t>(v);
+        kept.pins.pin(p.ids[at], vec<D>(p.points[at]));
+        kept.slides[at] = mat<D>(1.0);
+    }
+    std::vector<double> flat;
+    bool slides = false;
+    for (const auto& P : kept.slides)
+        for (int k = 0; k < D; ++k)
+            for (int j = 0; j < D; ++j)
+            {
+                flat.push_back(P[k][j]);
+                slides = slides || P[k][j] != (k == j ? 1.0 : 0.0);
+            }
+    slides = all.any(slides);
+    if (slides)
+    {
+        p.update(flat, D * D);
+        for (std::size_t v = 0, i = 0; v < kept.slides.size(); ++v)
+            for (int k = 0; k < D; ++k)
+                for (int j = 0; j < D; ++j) kept.slides[v][k][j] = flat[i++];
+        s.body().slide(std::move(kept.slides));
+    }
+    s.constrain(kept.pins);
+    return s.solve();
+}
+
+} // namespace taut::dist
