@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/mips_power.hpp>
+#include <support/objective_cases.hpp>
 #include <support/symmetric_eigen.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
@@ -20,6 +21,7 @@ namespace
 
 using namespace taut;
 using namespace taut::impl;
+using test::arithmetic;
 using matrix = Eigen::MatrixXd;
 using vector = Eigen::VectorXd;
 using slots = hessian_slots<2>;
@@ -49,14 +51,14 @@ struct spelled
     }
 };
 
-struct named_energy
+struct hessian_energy
 {
     const char* name;
     any_energy energy;
     bool isotropic;
 };
 
-std::vector<named_energy> energies()
+std::vector<hessian_energy> hessian_energies()
 {
     using namespace taut::energy;
     return {{"isometric", isometric{}, true},
@@ -212,14 +214,6 @@ matrix corner_map(const mat2& inverse)
     return K;
 }
 
-template <precision How>
-struct arithmetic
-{
-    static real_types types() { return types_of(How); }
-    static constexpr double epsilon =
-        How == precision::fp64 ? std::numeric_limits<double>::epsilon() : std::numeric_limits<float>::epsilon();
-};
-
 /// The worst error of all elements, in units of rounding times the condition of det S, which is that of the problem.
 template <class A>
 double worst_error(queue& q, const any_energy& energy, const elements& e, definiteness sign)
@@ -245,12 +239,9 @@ double worst_error(queue& q, const any_energy& energy, const elements& e, defini
 
 } // namespace
 
-TYPE_TO_STRING_AS("double", arithmetic<precision::fp64>);
-TYPE_TO_STRING_AS("mixed", arithmetic<precision::mixed>);
-
 TEST_CASE("element Hessian: an energy is known as isotropic by its recording, without being declared")
 {
-    for (const named_energy& tried : energies())
+    for (const hessian_energy& tried : hessian_energies())
     {
         CAPTURE(tried.name);
         CHECK(is_isotropic<2>(tried.energy) == tried.isotropic);
@@ -277,7 +268,7 @@ TEST_CASE("element Hessian: it is the derivative of the gradient, by finite diff
 {
     queue q;
     const auto e = generator().mixture(64, 0.5);
-    for (const named_energy& tried : energies())
+    for (const hessian_energy& tried : hessian_energies())
     {
         CAPTURE(tried.name);
         const auto device = on_device(q, tried.energy, e, definiteness::indefinite);
@@ -316,7 +307,7 @@ TEST_CASE_TEMPLATE("element Hessian: as it is, projected and absolute are those 
     // In float a ratio of stretches of 1e6 leaves no digit of det S.
     const double decades = A::types().vector == scalar_type::f64 ? 3 : 1.5;
     const auto e = generator().mixture(512, decades);
-    for (const named_energy& tried : energies())
+    for (const hessian_energy& tried : hessian_energies())
     {
         CAPTURE(tried.name);
         for (const auto sign : {definiteness::indefinite, definiteness::projected, definiteness::absolute})
@@ -332,7 +323,7 @@ TEST_CASE_TEMPLATE("element Hessian: projected is positive semi-definite to roun
 {
     queue q;
     const auto e = generator().mixture(4096, 3);
-    for (const named_energy& tried : energies())
+    for (const hessian_energy& tried : hessian_energies())
     {
         CAPTURE(tried.name);
         double least = 0;

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <support/mips_power.hpp>
+#include <support/objective_cases.hpp>
 #include <support/reference_problem.hpp>
 #include <support/size.hpp>
 
@@ -21,6 +21,7 @@ namespace
 
 using namespace taut;
 using namespace taut::impl;
+using test::arithmetic, test::energies, test::largest, test::named_energy;
 
 /// Costs more where the area grows beyond a limit. Its code chooses between two constants: these have no operand to
 /// take their type from.
@@ -36,31 +37,15 @@ struct two_rates
     }
 };
 
-struct named_energy
-{
-    const char* name;
-    any_energy energy;
-};
-
-std::vector<named_energy> energies()
-{
-    using namespace taut::energy;
-    return {{"isometric", isometric{}},
-            {"shape", shape{}},
-            {"area", area{}},
-            {"a sum with a user's energy", 0.8 * isometric{} + 0.2 * test::mips_power{.p = 3}},
-            {"a product", shape{} * area{}}};
-}
-
 /// A curved surface, a start that is distorted but not folded, and everything around them.
-struct fixture
+struct value_fixture
 {
     mesh<triangle> surface = test::bumpy(test::sized(14, 3), 0.4, 5);
     std::vector<vec2> start = barycentric_map(surface).uv;
     std::shared_ptr<const layout<triangle>> local;
     queue q;
 
-    explicit fixture(bool pin_some = false)
+    explicit value_fixture(bool pin_some = false)
     {
         std::vector<bool> pinned;
         if (pin_some)
@@ -69,17 +54,9 @@ struct fixture
     }
 };
 
-template <precision How>
-struct arithmetic
-{
-    static real_types types() { return types_of(How); }
-    /// Relative error that is allowed against double.
-    static constexpr double tolerance = How == precision::fp64 ? 1e-11 : How == precision::mixed ? 2e-5 : 2e-4;
-};
-
 /// The middle of the widest gap between the factors by which the start scales areas, those in the outer quarters aside:
 /// whether an element grows more is no matter of rounding.
-double gap_of_growth(const fixture& s)
+double gap_of_growth(const value_fixture& s)
 {
     const ideal_elements<triangle> ideal(s.surface);
     std::vector<double> growth;
@@ -96,25 +73,14 @@ double gap_of_growth(const fixture& s)
     return (growth[widest] + growth[widest + 1]) / 2;
 }
 
-double largest(const std::vector<double>& v)
-{
-    double most = 0;
-    for (const double x : v) most = std::max(most, std::abs(x));
-    return most;
-}
-
 } // namespace
-
-TYPE_TO_STRING_AS("double", arithmetic<precision::fp64>);
-TYPE_TO_STRING_AS("mixed", arithmetic<precision::mixed>);
-TYPE_TO_STRING_AS("float", arithmetic<precision::fp32>);
 
 TEST_CASE_TEMPLATE("map objective: value and gradient on the device are those of the host", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
 {
     for (const bool pin_some : {false, true})
     {
-        fixture s(pin_some);
+        value_fixture s(pin_some);
         for (const named_energy& tried : energies())
             for (const auto weights : {energy::weighting::uniform, energy::weighting::measure})
             {
@@ -142,7 +108,7 @@ TEST_CASE_TEMPLATE("map objective: value and gradient on the device are those of
 TEST_CASE_TEMPLATE("map objective: an energy that chooses between two constants works in any precision", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
 {
-    fixture s;
+    value_fixture s;
     const any_energy energy = two_rates{gap_of_growth(s)};
     const auto kernels = std::make_shared<const newton_kernels<triangle>>(s.q, energy, A::types());
     map_objective<triangle> f(s.q, s.local, energy, energy::weighting::measure, A::types(), {kernels, &kernels->first});
@@ -173,7 +139,7 @@ TEST_CASE_TEMPLATE("map objective: an energy that chooses between two constants 
 
 TEST_CASE("map objective: pinned vertices have no gradient, so they never move")
 {
-    fixture s(true);
+    value_fixture s(true);
     map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
     auto x = f.make_point();
     f.upload(s.start, x);
@@ -191,7 +157,7 @@ TEST_CASE("map objective: pinned vertices have no gradient, so they never move")
 TEST_CASE_TEMPLATE("map objective: a batch of trial steps is the value at each step", A, arithmetic<precision::fp64>,
                    arithmetic<precision::mixed>)
 {
-    fixture s;
+    value_fixture s;
     map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure, A::types());
     auto x = f.make_point(), moved = f.make_point();
     f.upload(s.start, x);
@@ -218,7 +184,7 @@ TEST_CASE_TEMPLATE("map objective: a batch of trial steps is the value at each s
 
 TEST_CASE("map objective: max_step is the first step that flips an element")
 {
-    fixture s;
+    value_fixture s;
     map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
@@ -247,7 +213,7 @@ TEST_CASE("map objective: max_step is the first step that flips an element")
 
 TEST_CASE("map objective: a folded map has an infinite value")
 {
-    fixture s;
+    value_fixture s;
     map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
     auto folded = s.start;
     for (auto& p : folded) p.x = -p.x;
@@ -258,7 +224,7 @@ TEST_CASE("map objective: a folded map has an infinite value")
 
 TEST_CASE("map objective: the device and the host model give the same iterates to rounding")
 {
-    fixture s;
+    value_fixture s;
     const any_energy energy = energy::isometric{};
     map_objective<triangle> f(s.q, s.local, energy, energy::weighting::measure);
     const test::reference_problem<triangle> reference(s.local, energy, energy::weighting::measure);

@@ -6,6 +6,7 @@
 
 #include <support/meshes.hpp>
 #include <support/mips_power.hpp>
+#include <support/objective_cases.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
@@ -19,24 +20,10 @@ namespace
 
 using namespace taut;
 using namespace taut::impl;
-
-struct named_energy
-{
-    std::string name;
-    any_energy energy;
-};
-
-std::vector<named_energy> energies()
-{
-    using namespace taut::energy;
-    return {{"isometric", isometric{}},
-            {"shape", shape{}},
-            {"area", area{}},
-            {"a sum with a user's energy", 0.8 * isometric{} + 0.2 * test::mips_power{.p = 3}}};
-}
+using test::arithmetic, test::energies, test::largest, test::named_energy;
 
 /// A curved surface with its levels, and a start that is distorted but not folded, in the order of level 0.
-struct fixture
+struct levels_fixture
 {
     mesh<triangle> surface;
     std::vector<bool> pinned;
@@ -44,7 +31,7 @@ struct fixture
     std::vector<vec2> start;
     queue q;
 
-    explicit fixture(mesh<triangle> m, bool pin_some = false)
+    explicit levels_fixture(mesh<triangle> m, bool pin_some = false)
         : surface(std::move(m)),
           pinned(pins(surface, pin_some)),
           levels(surface, pinned),
@@ -74,13 +61,6 @@ mesh<triangle> hills()
     return test::bumpy(test::sized(14, 3), 0.4, 5);
 }
 
-template <precision How>
-struct arithmetic
-{
-    static real_types types() { return types_of(How); }
-    static constexpr bool wide = How == precision::fp64;
-};
-
 /// A random vector that is zero where the gradient is.
 std::vector<double> random_vector(const newton_objective<triangle>& f, std::mt19937& random)
 {
@@ -92,24 +72,14 @@ std::vector<double> random_vector(const newton_objective<triangle>& f, std::mt19
     return v;
 }
 
-double largest(const std::vector<double>& v)
-{
-    double most = 0;
-    for (const double x : v) most = std::max(most, std::abs(x));
-    return most;
-}
-
 } // namespace
-
-TYPE_TO_STRING_AS("double", arithmetic<precision::fp64>);
-TYPE_TO_STRING_AS("mixed", arithmetic<precision::mixed>);
 
 TEST_CASE_TEMPLATE("newton objective: products with the Hessian are differences of gradients", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
     for (const bool pin_some : {false, true})
     {
-        const fixture s(hills(), pin_some);
+        const levels_fixture s(hills(), pin_some);
         for (const named_energy& tried : energies())
         {
             CAPTURE(tried.name);
@@ -162,7 +132,7 @@ TEST_CASE_TEMPLATE(
 {
     for (const bool pin_some : {false, true})
     {
-        const fixture s(hills(), pin_some);
+        const levels_fixture s(hills(), pin_some);
         for (const named_energy& tried : energies())
         {
             CAPTURE(tried.name);
@@ -211,7 +181,7 @@ TEST_CASE_TEMPLATE("newton objective: the preconditioner is symmetric and positi
     for (const int n : {test::sized(16, 4), 2})
         for (const bool pin_some : {false, true})
         {
-            const fixture s(test::bumpy(n, 0.3, 2), pin_some);
+            const levels_fixture s(test::bumpy(n, 0.3, 2), pin_some);
             auto f = s.make(energy::isometric{}, A::types());
             auto x = f.make_point();
             f.upload(s.start, x);
@@ -237,7 +207,7 @@ TEST_CASE_TEMPLATE("newton objective: the preconditioner is symmetric and positi
 TEST_CASE_TEMPLATE("newton objective: capped values are those at a fraction of the first flip", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
-    const fixture s(hills());
+    const levels_fixture s(hills());
     auto f = s.make(energy::isometric{}, A::types());
     auto x = f.make_point();
     f.upload(s.start, x);
@@ -270,7 +240,7 @@ TEST_CASE_TEMPLATE("newton objective: capped values are those at a fraction of t
 
 TEST_CASE("newton objective: what caps a step is named")
 {
-    const fixture s(hills());
+    const levels_fixture s(hills());
     auto f = s.make(energy::isometric{});
     auto x = f.make_point(), moved = f.make_point();
     // One vertex is about to cross an edge that it sees: only triangles at it can flip first.
@@ -302,7 +272,7 @@ TEST_CASE("newton objective: what caps a step is named")
 TEST_CASE_TEMPLATE("newton objective: few waits an iteration, and the minimum that plain BFGS finds", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
-    const fixture s(test::bumpy(test::sized(24, 4), 0.2, 3));
+    const levels_fixture s(test::bumpy(test::sized(24, 4), 0.2, 3));
     auto f = s.make(energy::isometric{}, A::types());
     auto x = f.make_point();
     f.upload(s.start, x);

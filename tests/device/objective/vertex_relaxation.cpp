@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/objective_cases.hpp>
 #include <support/reference_problem.hpp>
 #include <support/size.hpp>
 
@@ -18,9 +19,10 @@ namespace
 
 using namespace taut;
 using namespace taut::impl;
+using test::arithmetic;
 
 /// A user's energy that sees directions: stretch along the first axis of the ideal element costs more.
-struct anisotropic
+struct stiff_along_first
 {
     static constexpr bool barrier = true;
 
@@ -29,12 +31,6 @@ struct anisotropic
     {
         return (T(2) * glm::dot(e.S[0], e.S[0]) + glm::dot(e.S[1], e.S[1])) * (T(1) + T(1) / (e.det * e.det));
     }
-};
-
-template <precision How>
-struct arithmetic
-{
-    static real_types types() { return types_of(How); }
 };
 
 /// Points of a flat mesh as its map: the identity, with every triangle at rest.
@@ -73,7 +69,7 @@ bool squash(const mesh<triangle>& m, const csr& cells, std::vector<vec2>& uv, ta
 
 /// A flat mesh in place but for slivers at every `spacing`th vertex that can become one, `most` at most; every fifth
 /// vertex is pinned.
-struct fixture
+struct relaxation_fixture
 {
     mesh<triangle> surface;
     std::vector<vec2> start;
@@ -81,7 +77,7 @@ struct fixture
     std::size_t slivers = 0;
     std::shared_ptr<const layout<triangle>> local;
 
-    fixture(int n, taut::idx spacing, double h, std::size_t most = 1000)
+    relaxation_fixture(int n, taut::idx spacing, double h, std::size_t most = 1000)
         : surface(test::bumpy(n, 0.0, 3)), start(flat(surface))
     {
         const auto cells = vertex_cells(surface);
@@ -103,22 +99,19 @@ struct fixture
     }
 };
 
-vertex_relaxation<triangle> make(queue& q, const fixture& s, const any_energy& energy, const real_types& types = {})
+vertex_relaxation<triangle> make(queue& q, const relaxation_fixture& s, const any_energy& energy,
+                                 const real_types& types = {})
 {
     return {q, s.local, energy, energy::weighting::measure, types};
 }
 
 } // namespace
 
-TYPE_TO_STRING_AS("double", arithmetic<precision::fp64>);
-TYPE_TO_STRING_AS("mixed", arithmetic<precision::mixed>);
-TYPE_TO_STRING_AS("float", arithmetic<precision::fp32>);
-
 TEST_CASE("vertex relaxation: a schedule has the free vertices of the cells, neighbours in different colours")
 {
     for (const int n : {4, 15})
     {
-        const fixture s(n, 9, 0.1);
+        const relaxation_fixture s(n, 9, 0.1);
         const auto& l = *s.local;
         relaxation_scheduler<triangle> scheduler(l);
         std::vector<taut::idx> cells;
@@ -169,7 +162,7 @@ TEST_CASE_TEMPLATE("vertex relaxation: a sliver recovers, and nothing but its ve
     queue q;
     for (const int n : {6, test::sized(20, 9)})
     {
-        fixture s(n, 1, 1e-3, 1);
+        relaxation_fixture s(n, 1, 1e-3, 1);
         REQUIRE(s.slivers == 1);
         auto x = s.point(q, A::types());
         const auto before = x.download();
@@ -200,10 +193,10 @@ TEST_CASE_TEMPLATE("vertex relaxation: the energy falls call by call, for any en
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
 {
     queue q;
-    const fixture s(test::sized(18, 8), 7, 1e-2);
+    const relaxation_fixture s(test::sized(18, 8), 7, 1e-2);
     REQUIRE(s.slivers > 3);
     using namespace taut::energy;
-    std::vector<any_energy> energies = {isometric{}, anisotropic{}};
+    std::vector<any_energy> energies = {isometric{}, stiff_along_first{}};
     if (A::types().vector == scalar_type::f64)
         energies.insert(energies.end(), {0.5 * isometric{} + 0.5 * shape{}, shape{} * area{}});
     for (const any_energy& energy : energies)
@@ -230,7 +223,7 @@ TEST_CASE("vertex relaxation: one sweep is the best multiple of the damped Newto
 {
     queue q;
     for (const int n : {5, 9})
-        for (const any_energy& energy : {any_energy(energy::isometric{}), any_energy(anisotropic{})})
+        for (const any_energy& energy : {any_energy(energy::isometric{}), any_energy(stiff_along_first{})})
         {
             // Only the hub of a wheel is free.
             const auto wheel = test::fan(n, true);
@@ -286,7 +279,7 @@ TEST_CASE("vertex relaxation: one sweep is the best multiple of the damped Newto
 TEST_CASE("vertex relaxation: without bad elements, or outside of the domain, nothing changes")
 {
     queue q;
-    fixture s(test::sized(12, 6), 10, 1e-2);
+    relaxation_fixture s(test::sized(12, 6), 10, 1e-2);
     auto relax = make(q, s, energy::isometric{});
     auto x = s.point(q);
     const auto before = x.download();
@@ -318,7 +311,7 @@ TEST_CASE("vertex relaxation: all pinned is legal, and meshes share kernels")
     const auto shared = std::make_shared<const kernels>(q, energy::isometric{}, types);
     for (const int n : {5, 11})
     {
-        const fixture s(n, 6, 1e-2);
+        const relaxation_fixture s(n, 6, 1e-2);
         const auto arrays = std::make_shared<const element_arrays<triangle>>(
             q, types.vector, *s.local, energy::weighting::measure, energy::isometric{});
         auto x = s.point(q);
