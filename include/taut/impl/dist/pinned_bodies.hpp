@@ -18,7 +18,7 @@
 namespace taut::dist::impl
 {
 
-/// Paths of fixed vertices to their targets, as fixed_paths of one process: bodies, connected by cells between pinned
+/// Paths of fixed vertices to their targets, as prescribed_paths of one process: bodies, connected by cells between pinned
 /// vertices, move rigidly, and the remaining displacement is linear.
 template <class Element>
 class pinned_bodies

@@ -247,7 +247,7 @@ private:
     static constexpr int most_strides = 24;
     static constexpr int most_steps = 40;
     static constexpr double roughly = 1e-3; // the gradient of a map that will be moved
-    static constexpr double near = 0.25;    // of fixed_coordinates::misfit()
+    static constexpr double near = 0.25;    // of surface_constraints::misfit()
 
     const map_run& run_;
     bool free_;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
-#include <taut/impl/constrain/fixed_coordinates.hpp>
+#include <taut/impl/constrain/surface_constraints.hpp>
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/run_surface.hpp>
 #include <taut/impl/objective/mesh_levels.hpp>
@@ -31,7 +31,7 @@ struct map_run
     const parameterize_params& params; ///< validated
     const run_surface& in;
     run_clock& clock;
-    fixed_coordinates held;
+    surface_constraints held;
     std::optional<mesh_levels<triangle>>
         levels; ///< none where the method needs none, or the limits leave no time for them
 

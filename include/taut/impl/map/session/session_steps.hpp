@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/constrain/fixed_paths.hpp>
+#include <taut/impl/constrain/prescribed_paths.hpp>
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/session/held_map.hpp>
 #include <taut/impl/map/session/repair.hpp>
@@ -164,7 +164,7 @@ protected:
     /// Returns whether bodies of fixed vertices rotate on the path.
     bool turns() const
     {
-        return fixed_paths<D>(rest().cells(), marks(), scaled(last.x), scaled(held_.places())).parts() > 1;
+        return prescribed_paths<D>(rest().cells(), marks(), scaled(last.x), scaled(held_.places())).parts() > 1;
     }
 
     /// Tries an initial guess with fixed vertices at their targets. Returns whether it was taken.
@@ -198,7 +198,7 @@ protected:
     /// arrived.
     bool follow_parts(run_clock& clock, const map& from)
     {
-        const fixed_paths<D> paths(rest().cells(), marks(), from, held_.places());
+        const prescribed_paths<D> paths(rest().cells(), marks(), from, held_.places());
         const int parts = paths.parts();
         bool goes_on = true;
         int gone = 0;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
-#include <taut/impl/constrain/fixed_paths.hpp>
+#include <taut/impl/constrain/prescribed_paths.hpp>
 #include <taut/impl/constrain/untangle_problem.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/exact/certify.hpp>
@@ -30,7 +30,7 @@ namespace taut::impl
 /// change fast.
 /// from: the current shape, no element inverted; to: the targets, of which fixed coordinates are read.
 inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
-                                      const fixed_paths<3>& paths, const fixed_marks<3>& marks,
+                                      const prescribed_paths<3>& paths, const fixed_marks<3>& marks,
                                       const std::vector<vec3>& from, const std::vector<vec3>& to)
 {
     std::vector<vec3> held, places;
@@ -131,7 +131,7 @@ public:
         const gradient_fit<tetrahedron> poisson(here, p.draft);
         mended_draft found = from_coarser(p, here, poisson);
         if (!found.x.empty() && mend(p, here, poisson, found)) return found;
-        const fixed_paths<3> paths(p.rest.cells(), p.held, p.draft, p.initial);
+        const prescribed_paths<3> paths(p.rest.cells(), p.held, p.draft, p.initial);
         if (paths.parts() == 1 || !clock_.in_time()) return without_shape(found);
         found.x = turned_draft(poisson, here, paths, p.held, p.draft, p.initial);
         return mend(p, here, poisson, found) ? found : without_shape(found);

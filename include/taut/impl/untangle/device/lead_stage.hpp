@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/constrain/fixed_paths.hpp>
+#include <taut/impl/constrain/prescribed_paths.hpp>
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/untangle/device/live_map.hpp>
@@ -50,7 +50,7 @@ public:
         impl::live_map<Element> live(queue_, problem.rest, params, how, x);
         live.constrain(problem.held, {}, {});
 
-        const fixed_paths<D> paths(problem.rest.cells(), problem.held, x, problem.initial);
+        const prescribed_paths<D> paths(problem.rest.cells(), problem.held, x, problem.initial);
         for (int part = 1; part <= paths.parts(); ++part)
         {
             if (!state.proceed(0)) return false;

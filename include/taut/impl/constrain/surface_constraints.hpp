@@ -20,12 +20,12 @@ namespace taut::impl
 
 /// Fixed coordinates of a map of a surface: those of a fixed boundary and of pins. Lengths of maps are `unit` times
 /// those of the constraints.
-class fixed_coordinates
+class surface_constraints
 {
 public:
     /// fixed: the vertices of a fixed boundary; none where it is free. Throws parameter_error for constraints of
     /// another mesh; constraint_error (not_finite) for targets that are too far away in lengths of `unit`.
-    fixed_coordinates(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
+    surface_constraints(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
         : wanted_(std::move(wanted)), free_boundary_(fixed.empty()), unit_(unit)
     {
         for (const auto& [v, pin] : wanted_.pins()) require(v, vertices);

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/constrain/fixed_paths.hpp>
+#include <taut/impl/constrain/prescribed_paths.hpp>
 
 using namespace taut;
 using namespace taut::impl;
@@ -24,7 +24,7 @@ TEST_CASE("held paths: two ends of a bar that turn against each other keep their
         if (from[v].z == 0) marks[v] = marks.every;
         if (from[v].z == 1) marks[v] = marks.every, to[v] = half(from[v]);
     }
-    const fixed_paths<3> paths(m.cells(), marks, from, to);
+    const prescribed_paths<3> paths(m.cells(), marks, from, to);
     CHECK(paths.parts() == 6);
     CHECK(paths.parts(7.0) == 1);
     for (const double t : {0.25, 0.5, 0.75, 1.0})
@@ -56,7 +56,7 @@ TEST_CASE("held paths: what changes its shape does so little by little, single c
     }
     for (std::size_t v = 0; v < from.size(); ++v)
         marks[v] = from[v].y == 0 ? marks.every : from[v].y == 1 ? std::uint8_t{1} : std::uint8_t{0};
-    const fixed_paths<2> paths(m.cells(), marks, from, to);
+    const prescribed_paths<2> paths(m.cells(), marks, from, to);
     CHECK(paths.parts() == 1);
     auto x = from;
     paths.place(0.5, x);

@@ -21,13 +21,13 @@ namespace taut::impl
 /// remaining displacement is linear. On straight lines alone a face that rotates by half a turn would shrink to a point
 /// half way.
 template <int D>
-class fixed_paths
+class prescribed_paths
 {
 public:
     using map = std::vector<vec<D>>;
 
     /// cells: their D + 1 vertices. from, to: one position per vertex, of `to` only fixed coordinates are read.
-    fixed_paths(std::span<const std::array<idx, D + 1>> cells, const fixed_marks<D>& marks, const map& from,
+    prescribed_paths(std::span<const std::array<idx, D + 1>> cells, const fixed_marks<D>& marks, const map& from,
                 const map& to)
         : marks_(marks), from_(from), to_(to), body_(marks.size(), -1)
     {
