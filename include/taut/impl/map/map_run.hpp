@@ -10,19 +10,11 @@
 #include <taut/impl/constrain/held_coordinates.hpp>
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/run_surface.hpp>
+#include <taut/impl/objective/mapped_mesh.hpp>
 #include <taut/impl/objective/mesh_levels.hpp>
 
 namespace taut::impl
 {
-
-/// Binds the data and parameters to the user's energy. Throws parameter_error.
-inline parameterize_params validated(parameterize_params p)
-{
-    p.validate();
-    if (!p.parameters.empty()) p.energy = p.energy.with_parameters(p.parameters);
-    p.energy = p.energy.with_data(p.data.mean_attributes(), !p.data.directions.empty());
-    return p;
-}
 
 /// Prepared run of parameterize(): the input of all its phases.
 struct map_run

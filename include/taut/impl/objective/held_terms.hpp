@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -69,12 +68,13 @@ public:
         corners_ = buffer_of(corners);
     }
 
-    /// Sets the targets of fixed coordinates: those of a map in the user's numbers and units; no others are read.
-    void aim(const layout<Element>& mesh_layout, std::span<const vec<D>> map)
+    /// Sets the targets of fixed coordinates: target(v) is that of vertex v, in the user's numbering and units.
+    template <class Target>
+    void aim(const layout<Element>& mesh_layout, const Target& target)
     {
         if (empty()) return;
         std::vector<double> targets;
-        for (const auto& [v, i] : vertices_) targets.push_back(map[v][i] * mesh_layout.scale);
+        for (const auto& [v, i] : vertices_) targets.push_back(target(v)[i] * mesh_layout.scale);
         targets_ = real_buffer(queue_, types_.position, targets);
     }
 

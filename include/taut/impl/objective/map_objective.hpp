@@ -103,8 +103,12 @@ public:
     }
 
     /// Sets the targets of fixed coordinates other than those of pinned vertices, for linearize_towards() and put():
-    /// those of a map in the user's numbers and units; no others are read.
-    void aim(std::span<const vec<D>> map) { held_.aim(*layout_, map); }
+    /// target(v) is that of vertex v, in the user's numbers and units.
+    template <class Target>
+    void aim(const Target& target)
+    {
+        held_.aim(*layout_, target);
+    }
     /// Sets x to the targets at fixed coordinates, to the last bit of the type of positions.
     void put(point& x) { held_.put(x); }
 

@@ -13,7 +13,8 @@
 #include <taut/impl/map/overlap/scaffolded_map.hpp>
 #include <taut/impl/map/overlap/start_apart.hpp>
 #include <taut/impl/map/run_result.hpp>
-#include <taut/impl/map/session/shape_session.hpp>
+#include <taut/impl/map/session/session_run.hpp>
+#include <taut/impl/map/session/shape_setup.hpp>
 
 namespace taut::impl
 {
@@ -67,7 +68,7 @@ private:
         session_result<triangle> moved;
         try
         {
-            moved = shape_session<triangle>(run_.queue, plane, how).solve({});
+            moved = session_run<triangle>(run_.queue, shape_setup(plane, how)).solve({});
         }
         catch (const mesh_error&)
         {

@@ -11,13 +11,12 @@
 #include <taut/impl/constrain/untangle_problem.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/exact/certify.hpp>
-#include <taut/impl/map/deform_params.hpp>
 #include <taut/impl/map/gradient_fit.hpp>
 #include <taut/impl/map/session/coarse_draft.hpp>
 #include <taut/impl/map/shape_path.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/mesh/incidence.hpp>
-#include <taut/impl/untangle/device/live_map.hpp>
+#include <taut/impl/objective/running_map.hpp>
 #include <taut/impl/untangle/local_problem.hpp>
 #include <taut/impl/untangle/untangle_declared.hpp>
 
@@ -206,12 +205,14 @@ private:
     /// Minimises the shape to a relative gradient, with a maximum number of steps.
     void minimise(const problem& p, double gradient, int steps, mended_draft& found) const
     {
-        live_map<tetrahedron> live(queue_, p.rest, deform_params<tetrahedron>{}, arithmetic_, found.x);
-        live.constrain(p.held, {}, {});
+        const mapped_mesh<tetrahedron> of{.rest = p.rest};
+        running_map<tetrahedron> running(queue_, of);
+        running.fixed = {p.held, p.initial};
+        running.load(found.x, arithmetic_);
         const solve::stopping_params enough{
             .gradient_tolerance = gradient, .max_iterations = steps, .time_limit = clock_.left()};
-        found.steps += live.minimize({.stopping = enough}, how_.limits.observer).iterations;
-        found.x = live.coordinates();
+        found.steps += running.minimise({.stopping = enough}, how_.limits.observer).iterations;
+        found.x = running.coordinates();
     }
 
     queue queue_;
