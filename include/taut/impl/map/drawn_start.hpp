@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <taut/impl/core/made_ahead.hpp>
-#include <taut/impl/map/attempt_on_levels.hpp>
+#include <taut/impl/map/attempt.hpp>
 #include <taut/impl/untangle/untangle_host.hpp>
 
 namespace taut::impl

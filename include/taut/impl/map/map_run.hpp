@@ -57,6 +57,8 @@ struct map_run
         return made;
     }
 
+    bool outline_pinned() const { return held.outline_pinned(in.surface, in.sides); }
+
     /// Returns whether the map is unconstrained.
     bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
 
