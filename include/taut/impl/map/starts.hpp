@@ -154,7 +154,9 @@ inline constexpr start_maker start_makers[] = {
      [](const map_run& run)
      {
          run_start start = drawn_start(run, drawn_start::from::free_map).make();
-         return start.useless && !start.stopped ? start_from(run, std::move(start.map)) : start;
+         if (!start.useless || start.stopped || start.map.uv.empty()) return start;
+         start.useless = false;
+         return fitted_start(run, std::move(start), false);
      }},
     {"free map",
      [](const map_run& run)
