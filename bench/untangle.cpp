@@ -229,7 +229,7 @@ untangle_problem<triangle> collapsed_square(int n)
 {
     auto m = test::grid(n, n);
     std::vector<vec2> x;
-    held_marks<2> held(m.points().size());
+    fixed_marks<2> held(m.points().size());
     for (const vec3& p : m.points())
     {
         const bool rim = p.x == 0 || p.y == 0 || p.x == 1 || p.y == 1;

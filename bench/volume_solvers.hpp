@@ -181,7 +181,7 @@ private:
     const taut::mesh<tetrahedra>& mesh_;
     taut::constraints<tetrahedra> pins_;
     double limit_;
-    taut::impl::held_marks<3> held_;
+    taut::impl::fixed_marks<3> held_;
     shape start_;
 };
 

@@ -20,7 +20,7 @@ inline untangle_problem<tetrahedron> folded_edge()
     const std::vector<vec3> rest{{0, 0, -1}, {0, 0, 1}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}};
     auto x = rest;
     x[2].x = x[3].x = -0.2;
-    impl::held_marks<3> held(rest.size());
+    impl::fixed_marks<3> held(rest.size());
     for (std::size_t v = 0; v < rest.size(); ++v) held[v] = held.every;
     return {mesh<tetrahedron>(rest, {{0, 1, 2, 3}, {0, 1, 3, 4}, {0, 1, 4, 5}, {0, 1, 5, 2}}), std::move(x),
             std::move(held)};
@@ -29,7 +29,7 @@ inline untangle_problem<tetrahedron> folded_edge()
 /// Two triangles on a diagonal, all four vertices pinned, one of them beyond the diagonal.
 inline untangle_problem<triangle> reflex_quad()
 {
-    impl::held_marks<2> held(4);
+    impl::fixed_marks<2> held(4);
     for (std::size_t v = 0; v < 4; ++v) held[v] = held.every;
     return {mesh<triangle>({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 3}, {1, 2, 3}}),
             {{0.7, 0.7}, {1, 0}, {1, 1}, {0, 1}},
@@ -48,7 +48,7 @@ inline untangle_problem<triangle> fan_in_a_u()
     for (idx k = 0; k < n; ++k) cells.push_back({k, (k + 1) % n, n});
     auto x = outline;
     x.emplace_back(1.5, 0.5);
-    impl::held_marks<2> held(x.size());
+    impl::fixed_marks<2> held(x.size());
     for (std::size_t v = 0; v < outline.size(); ++v) held[v] = held.every;
     return {mesh<triangle>(std::move(rest), std::move(cells)), std::move(x), std::move(held)};
 }
@@ -82,7 +82,7 @@ inline untangle_problem<tetrahedron> cone_in_a_u()
         cells.push_back({k, n + next, next, middle});
         cells.push_back({k, n + k, n + next, middle});
     }
-    impl::held_marks<3> held(x.size());
+    impl::fixed_marks<3> held(x.size());
     for (std::size_t v = 0; v + 1 < x.size(); ++v) held[v] = held.every;
     return {mesh<tetrahedron>(std::move(rest), std::move(cells)), std::move(x), std::move(held)};
 }

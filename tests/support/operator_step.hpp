@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/mesh/mesh.hpp>
 
 namespace taut::impl
@@ -35,7 +35,7 @@ struct operator_step
 
     /// The map after the move.
     std::vector<vec<D>> operator()(const mesh<Element>& m, const std::vector<vec<D>>& x,
-                                   const held_marks<D>& held) const
+                                   const fixed_marks<D>& held) const
     {
         std::vector<vec<D>> sum(x.size(), vec<D>(0.0));
         for (const auto& cell : m.cells())

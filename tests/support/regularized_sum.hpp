@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/core/linalg.hpp>
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/energy/corner_derivatives.hpp>
@@ -29,7 +29,7 @@ public:
     static constexpr int D = Element::dimension;
 
     /// Both are referred to.
-    regularized_sum(const mesh<Element>& m, const held_marks<D>& held)
+    regularized_sum(const mesh<Element>& m, const fixed_marks<D>& held)
         : mesh_(m),
           held_(held),
           around_(vertex_corners(m)),
@@ -97,7 +97,7 @@ private:
     }
 
     const mesh<Element>& mesh_;
-    const held_marks<D>& held_;
+    const fixed_marks<D>& held_;
     csr around_;
     std::vector<vec<D>> forces_; // of a corner
     std::vector<double> values_; // of an element

@@ -183,7 +183,7 @@ private:
             {
                 for (const auto& p : pins)
                 {
-                    if (!p.hard() || p.held != taut::impl::held_marks<3>::every)
+                    if (!p.hard() || p.held != taut::impl::fixed_marks<3>::every)
                         throw unsuitable_input(path + ": vertex " + std::to_string(p.vertex) +
                                                " has a weight or lacks a coordinate; use --pins for those");
                     read.push_back({p.vertex, p.target, option_});

@@ -49,7 +49,7 @@ untangle_problem<Element> tangled_star()
     std::vector<vec<D>> start;
     for (const vec3& p : points) start.emplace_back(p);
     start[0][0] = 1.5;
-    taut::impl::held_marks<D> held(points.size());
+    taut::impl::fixed_marks<D> held(points.size());
     for (std::size_t v = 1; v < points.size(); ++v) held[v] = held.every;
     return {mesh<Element>(std::move(points), std::move(cells)), std::move(start), std::move(held)};
 }

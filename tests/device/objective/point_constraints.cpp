@@ -32,7 +32,7 @@ struct setting
     setting()
     {
         const auto n = start.size();
-        wanted.held = held_marks<2>(n);
+        wanted.held = fixed_marks<2>(n);
         wanted.held[n / 2] = 1;
         wanted.held[n / 3] = 2;
         wanted.springs = {{static_cast<taut::idx>(n / 4), vec2(0.4, -0.1), vec2(3.0)},

@@ -23,7 +23,7 @@ untangle_problem<tetrahedron> twisted_ends()
     const auto cube = test::jittered_cube(test::sized(5, 3), 2);
     auto points = cube.points();
     for (vec3& p : points) p.z *= 3;
-    held_marks<3> held(points.size());
+    fixed_marks<3> held(points.size());
     auto x = points;
     for (std::size_t v = 0; v < x.size(); ++v)
     {

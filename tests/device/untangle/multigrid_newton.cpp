@@ -32,8 +32,8 @@ untangle_problem<Element> scrambled(int n)
         else
             return test::cube(n);
     }();
-    untangle_problem<Element> p{std::move(m), {}, held_marks<D>()};
-    p.held = held_marks<D>(p.rest.points().size());
+    untangle_problem<Element> p{std::move(m), {}, fixed_marks<D>()};
+    p.held = fixed_marks<D>(p.rest.points().size());
     std::mt19937 random(5);
     std::uniform_real_distribution<double> at(0.1, 0.9);
     for (const vec3& point : p.rest.points())
@@ -54,8 +54,8 @@ untangle_problem<Element> scrambled(int n)
 untangle_problem<triangle> turned_frame(int n, double angle)
 {
     auto m = test::grid(n, n);
-    untangle_problem<triangle> p{std::move(m), {}, held_marks<2>()};
-    p.held = held_marks<2>(p.rest.points().size());
+    untangle_problem<triangle> p{std::move(m), {}, fixed_marks<2>()};
+    p.held = fixed_marks<2>(p.rest.points().size());
     for (const vec3& point : p.rest.points())
     {
         const vec2 x(point.x - 0.5, point.y - 0.5);

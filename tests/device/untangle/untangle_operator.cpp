@@ -42,7 +42,7 @@ untangle_problem<Element> boxed(mesh<Element> m)
 {
     untangle_problem<Element> p{std::move(m), {}, {}};
     p.initial = identity(p.rest);
-    p.held = held_marks<Element::dimension>(p.initial.size());
+    p.held = fixed_marks<Element::dimension>(p.initial.size());
     for (std::size_t v = 0; v < p.initial.size(); ++v)
         for (int c = 0; c < Element::dimension; ++c)
             if (p.initial[v][c] == 0 || p.initial[v][c] == 1) p.held[v] = p.held.every;
@@ -550,6 +550,6 @@ TEST_CASE("untangling operator: bad input is refused by name")
     CHECK_THROWS_AS(untangle.run(start), parameter_error);
     start.pop_back();
     CHECK_THROWS_AS(untangle.run(start), parameter_error);
-    p.held = held_marks<2>(p.held.size() - 1);
+    p.held = fixed_marks<2>(p.held.size() - 1);
     CHECK_THROWS_AS(untangle_operator<triangle>(q, p), parameter_error);
 }

@@ -94,7 +94,7 @@ TEST_CASE("untangle: random pins on random disks end honestly, and those of a va
         untangle_problem<triangle> problem{m, valid.uv, {}};
         const double freedom = chance(random), noise = 10 * chance(random) * chance(random);
         const bool pins_fit = chance(random) < 0.6;
-        problem.held = held_marks<2>(problem.initial.size());
+        problem.held = fixed_marks<2>(problem.initial.size());
         for (std::size_t v = 0; v < problem.initial.size(); ++v)
         {
             const auto held = chance(random) < freedom ? 0u : std::uniform_int_distribution<unsigned>(1, 3)(random);

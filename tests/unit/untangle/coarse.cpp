@@ -22,7 +22,7 @@ untangle_problem<triangle> scrambled(bool bound)
 {
     mesh<triangle> m = test::grid(48, 48);
     std::vector<vec2> x(m.points().begin(), m.points().end());
-    held_marks<2> held(x.size());
+    fixed_marks<2> held(x.size());
     std::vector<char> outer(x.size(), 0);
     for (const auto& e : boundary_facets(m))
         for (const taut::idx v : e) outer[static_cast<std::size_t>(v)] = 1;

@@ -50,7 +50,7 @@ untangle_problem<tetrahedron> edge_over_a_floor(const std::array<vec2, 4>& floor
     x[9] = {1.5, 2, 1};
     x[0] = {1.5, -0.5, 0.5};
     x[1] = {1.5, 0.5, 0.5};
-    held_marks<3> held(x.size());
+    fixed_marks<3> held(x.size());
     for (std::size_t v = 2; v < x.size(); ++v) held[v] = held.every;
     return {mesh<tetrahedron>(std::move(rest), std::move(cells)), std::move(x), std::move(held)};
 }
@@ -68,7 +68,7 @@ infeasibility judged(const untangle_problem<tetrahedron>& p)
 /// The problem of a mesh whose outline is pinned where it is.
 untangle_problem<tetrahedron> within_outline(const mesh<tetrahedron>& m)
 {
-    held_marks<3> held(m.points().size());
+    fixed_marks<3> held(m.points().size());
     for (const auto& facet : boundary_facets(m))
         for (const taut::idx v : facet) held[std::size_t(v)] = held.every;
     return {m, m.points(), std::move(held)};
@@ -88,7 +88,7 @@ TEST_CASE("side_view: a form is positive where the tetrahedron is, on all sides"
         // units are those of the cube.
         std::vector<vec3> x;
         for (int v = 0; v < 6; ++v) x.emplace_back(u(random), u(random), u(random));
-        held_marks<3> held(6);
+        fixed_marks<3> held(6);
         for (std::size_t v = 3; v < 6; ++v)
         {
             for (int i = 0; i < 3; ++i) x[v][i] = v == 3 ? 1 : v == 4 ? 97 : std::round(64 * x[v][i]);

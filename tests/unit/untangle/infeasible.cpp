@@ -23,7 +23,7 @@ using kind = infeasibility_kind;
 template <class Element, class Pinned>
 untangle_problem<Element> problem(const mesh<Element>& m, std::vector<vec<Element::dimension>> x, const Pinned& pinned)
 {
-    held_marks<Element::dimension> held(x.size());
+    fixed_marks<Element::dimension> held(x.size());
     for (std::size_t v = 0; v < held.size(); ++v)
         if (pinned(static_cast<taut::idx>(v))) held[v] = held.every;
     return {m, std::move(x), std::move(held)};

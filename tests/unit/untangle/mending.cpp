@@ -87,7 +87,7 @@ TEST_CASE("splits_around: edges inside between held vertices near by, else the l
     const std::vector<taut::idx> first{0};
     CHECK(splits_around(chord, first).simplices == std::vector<std::vector<taut::idx>>{{0, 1}});
     auto free = test::cone_in_a_u();
-    free.held = held_marks<3>(free.initial.size());
+    free.held = fixed_marks<3>(free.initial.size());
     free.held[0] = free.held.every;
     const auto splits = splits_around(free, first).simplices;
     REQUIRE(splits.size() == 1);

@@ -110,7 +110,7 @@ TEST_CASE_TEMPLATE("regularized energy: the sum over a mesh has the gradient of 
     else
         cells = {{0, 1, 2, 3}};
     const mesh<Element> m(points, cells);
-    const held_marks<D> held(std::vector<std::uint8_t>{1, 0, 0, 0});
+    const fixed_marks<D> held(std::vector<std::uint8_t>{1, 0, 0, 0});
     impl::regularized_sum<Element> f(m, held);
     f.eps = 0.2;
     f.shapes = impl::rest_shapes(m, 1.0);

@@ -29,7 +29,7 @@ untangle_problem<triangle> pinned_boundary(mesh<triangle> m, Place place)
 {
     std::vector<vec2> x;
     for (const vec3& p : m.points()) x.push_back(place(vec2(p.x, p.y)));
-    held_marks<2> held(x.size());
+    fixed_marks<2> held(x.size());
     for (const auto& e : boundary_facets(m))
         for (const taut::idx v : e) held[static_cast<std::size_t>(v)] = 3;
     return {std::move(m), std::move(x), std::move(held)};
@@ -150,7 +150,7 @@ TEST_CASE("untangle: a few pins, or none, are enough where everything else is fr
     {
         CAPTURE(pins);
         auto problem = square(5);
-        problem.held = held_marks<2>(problem.held.size());
+        problem.held = fixed_marks<2>(problem.held.size());
         scramble(problem, 7, 1.0);
         if (pins > 0) problem.held[0] = 3;
         if (pins > 1) problem.held[35] = 3;
@@ -264,7 +264,7 @@ TEST_CASE("untangle: random pins on a free boundary give maps that wind once aro
         CAPTURE(k);
         const auto m = test::bumpy(10, 0.4, static_cast<std::uint32_t>(k));
         const auto free = barycentric_map(m);
-        untangle_problem<triangle> problem{m, free.uv, held_marks<2>(free.uv.size())};
+        untangle_problem<triangle> problem{m, free.uv, fixed_marks<2>(free.uv.size())};
         if (k % 2 == 0) problem.draft = free.uv;
         const int pins = 1 + static_cast<int>(uniform(0, 6));
         const double most = uniform(0.05, 0.5);
@@ -290,7 +290,7 @@ TEST_CASE("untangle: a map that winds twice is not injective, and gets another o
 {
     const int n = 12;
     const auto m = test::fan(n, true);
-    untangle_problem<triangle> problem{m, {vec2(0.0)}, held_marks<2>(n + 1)};
+    untangle_problem<triangle> problem{m, {vec2(0.0)}, fixed_marks<2>(n + 1)};
     for (int k = 0; k < n; ++k)
     {
         const double angle = 4 * std::numbers::pi * k / n;
@@ -324,7 +324,7 @@ TEST_CASE("untangle: the shapes that are wanted stand for a rest shape that is n
     // The inner vertex of four tetrahedra lies outside, at rest, too.
     const std::vector<vec3> points = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}, {3, 3, 3}};
     const mesh<tetrahedron> m(points, {{4, 1, 2, 3}, {0, 4, 2, 3}, {0, 1, 4, 3}, {0, 1, 2, 4}});
-    untangle_problem<tetrahedron> problem{m, points, held_marks<3>(5)};
+    untangle_problem<tetrahedron> problem{m, points, fixed_marks<3>(5)};
     for (std::size_t v = 0; v < 4; ++v) problem.held[v] = problem.held.every;
     problem.wanted.assign(4, regular_ideal<tetrahedron>());
     const auto r = untangle(problem);

@@ -15,7 +15,7 @@
 
 #include <taut/impl/constrain/arc_length.hpp>
 #include <taut/impl/constrain/constraint_error.hpp>
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 
 namespace taut
@@ -50,7 +50,7 @@ class constraints
 {
 public:
     static constexpr int D = Element::dimension;
-    static constexpr std::uint8_t all = impl::held_marks<D>::every; ///< all bits of held: every coordinate
+    static constexpr std::uint8_t all = impl::fixed_marks<D>::every; ///< all bits of held: every coordinate
     using point = vec<D>;
 
     constraints() = default; ///< none, of no mesh
@@ -254,9 +254,9 @@ public:
     }
 
     /// Fixed coordinates of all vertices, as held(), one per vertex.
-    impl::held_marks<D> held() const
+    impl::fixed_marks<D> held() const
     {
-        impl::held_marks<D> marks(count());
+        impl::fixed_marks<D> marks(count());
         for (const auto& [v, p] : pins_) marks[static_cast<std::size_t>(v)] = p.held;
         return marks;
     }

@@ -7,7 +7,7 @@
 
 #include <taut/impl/constrain/constraints.hpp>
 #include <taut/impl/constrain/slide.hpp>
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/core/linalg.hpp>
 
 namespace taut::impl
@@ -35,12 +35,12 @@ public:
     }
 
     /// targets: one position per vertex, of which the fixed coordinates are read.
-    fixed_coordinates(held_marks<D> marks, map targets) : marks_(std::move(marks)), targets_(std::move(targets)) {}
+    fixed_coordinates(fixed_marks<D> marks, map targets) : marks_(std::move(marks)), targets_(std::move(targets)) {}
 
     /// Replaces the pins; returns whether the set of fixed coordinates has changed.
     bool take(const constraints<Element>& wanted)
     {
-        held_marks<D> marks(targets_.size());
+        fixed_marks<D> marks(targets_.size());
         for (const idx v : still_)
         {
             marks[static_cast<std::size_t>(v)] = marks.every;
@@ -55,7 +55,7 @@ public:
         return std::exchange(marks_, std::move(marks)) != marks_;
     }
 
-    const held_marks<D>& marks() const { return marks_; } ///< one per vertex
+    const fixed_marks<D>& marks() const { return marks_; } ///< one per vertex
     const std::vector<slide<D>>& slides() const { return slides_; }
     const map& targets() const { return targets_; } ///< one per vertex; those of free coordinates mean nothing
 
@@ -113,7 +113,7 @@ public:
     }
 
 private:
-    held_marks<D> marks_;
+    fixed_marks<D> marks_;
     map targets_, start_;
     std::vector<idx> still_;
     std::vector<slide<D>> slides_;

@@ -7,7 +7,7 @@
 
 #include <taut/impl/constrain/constraints.hpp>
 #include <taut/impl/constrain/slide.hpp>
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/mesh/order.hpp>
 
 namespace taut::impl
@@ -35,7 +35,7 @@ std::vector<directed_spring<D>> directed(const std::vector<spring<D>>& springs)
 template <int D>
 struct point_constraints
 {
-    held_marks<D> held;                      ///< one per vertex, or none
+    fixed_marks<D> held;                     ///< one per vertex, or none
     std::vector<directed_spring<D>> springs; ///< springs, whose energy is added to the mean energy
     std::vector<slide<D>> slides{};          ///< at most one per vertex
 
@@ -45,7 +45,7 @@ struct point_constraints
     point_constraints renumbered(const permutation& p) const
     {
         point_constraints r;
-        if (!held.empty()) r.held = held_marks<D>(p.apply(held.bits()));
+        if (!held.empty()) r.held = fixed_marks<D>(p.apply(held.bits()));
         for (directed_spring<D> s : springs)
         {
             s.vertex = p.old_to_new[static_cast<std::size_t>(s.vertex)];

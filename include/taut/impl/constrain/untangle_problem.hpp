@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <taut/impl/core/error.hpp>
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/mesh/cell_corners.hpp>
 
 namespace taut
@@ -22,7 +22,7 @@ struct untangle_problem
 
     mesh<Element> rest;          ///< the shape that the map distorts as little as possible; planar meshes have z = 0
     std::vector<vec<D>> initial; ///< one per vertex, in any state; a fixed coordinate is a hard constraint
-    impl::held_marks<D> held;    ///< one per vertex
+    impl::fixed_marks<D> held;   ///< one per vertex
     /// Initial guess: a valid map near the solution, whose fixed coordinates need not be at their targets; empty: none.
     std::vector<vec<D>> draft = {};
     /// Target shapes of elements, if not those at rest: edge matrices, upper triangular with a positive diagonal, one
@@ -34,7 +34,7 @@ struct untangle_problem
     std::vector<idx> sliding = {};
 
     /// Fixed coordinates that proofs may rely on.
-    impl::held_marks<D> held_for_sure() const
+    impl::fixed_marks<D> held_for_sure() const
     {
         auto marks = held;
         for (const idx v : sliding) marks[static_cast<std::size_t>(v)] = 0;

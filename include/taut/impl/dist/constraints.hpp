@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/core/types.hpp>
 
 namespace taut::dist
@@ -20,7 +20,7 @@ class constraints
 {
 public:
     static constexpr int D = Element::dimension;
-    static constexpr std::uint8_t all = taut::impl::held_marks<D>::every;
+    static constexpr std::uint8_t all = taut::impl::fixed_marks<D>::every;
 
     /// One of them; weight 0: a pin of the coordinates in `held`, else a spring.
     struct entry

@@ -110,7 +110,7 @@ public:
     }
 
 private:
-    static constexpr std::uint8_t every = taut::impl::held_marks<D>::every;
+    static constexpr std::uint8_t every = taut::impl::fixed_marks<D>::every;
 
     [[noreturn]] static void refuse(constraint_fault fault, std::int64_t id, const std::string& why)
     {

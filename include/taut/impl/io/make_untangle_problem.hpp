@@ -30,7 +30,7 @@ untangle_problem<Element> make_untangle_problem(mesh<Element> rest, std::vector<
 template <class Element>
 untangle_problem<Element> make_untangle_problem(io::prob_file<Element> file)
 {
-    impl::held_marks<Element::dimension> held(file.rest.size());
+    impl::fixed_marks<Element::dimension> held(file.rest.size());
     for (const idx v : file.fixed) held[static_cast<std::size_t>(v)] = held.every;
     return {mesh<Element>(std::move(file.rest), std::move(file.cells)), std::move(file.initial), std::move(held)};
 }

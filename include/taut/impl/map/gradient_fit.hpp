@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <taut/impl/core/block_sum.hpp>
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/core/linalg.hpp>
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/mesh/incidence.hpp>
@@ -75,7 +75,7 @@ public:
     /// from several threads. tolerance: of the residual, in the norm of its scale, by that at the start. Without fixed
     /// coordinates the mean of x, weighted by the diagonal, stays.
     template <class Wanted>
-    void fit(const Wanted& wanted, const held_marks<D>& held, double tolerance, values& x) const
+    void fit(const Wanted& wanted, const fixed_marks<D>& held, double tolerance, values& x) const
     {
         const std::size_t n = x.size();
         std::vector<mat<D>> missing(cells_.size());

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
-#include <taut/impl/constrain/held_coordinates.hpp>
+#include <taut/impl/constrain/surface_constraints.hpp>
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/run_surface.hpp>
 #include <taut/impl/objective/mapped_mesh.hpp>
@@ -23,7 +23,7 @@ struct map_run
     const parameterize_params& params; ///< validated
     const run_surface& in;
     run_clock& clock;
-    held_coordinates held;
+    surface_constraints held;
     std::optional<mesh_levels<triangle>>
         levels; ///< none where the method needs none, or the limits leave no time for them
 
@@ -78,7 +78,7 @@ struct map_run
     bool starts_coarse() const { return may_start_coarse() && !held.constrained(); }
 
     /// Returns whether pins are reached by a penalty continuation there.
-    bool draws_pins() const
+    bool uses_continuation() const
     {
         return may_start_coarse() && held.pinned() && params.boundary == boundary_mode::free && params.energy.barrier();
     }

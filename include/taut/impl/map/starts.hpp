@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/map/drawn_start.hpp>
+#include <taut/impl/map/penalty_continuation.hpp>
 #include <taut/impl/measure/planar_size.hpp>
 #include <taut/impl/start/conformal.hpp>
 #include <taut/impl/untangle/untangle_declared.hpp>
@@ -148,12 +148,12 @@ inline constexpr start_maker start_makers[] = {
          start.coarse = true;
          return start;
      }},
-    {"penalty", [](const map_run& run) { return run.draws_pins(); },
-     [](const map_run& run) { return drawn_start(run).make(); }},
-    {"penalty from free map", [](const map_run& run) { return run.draws_pins() && run.outline_pinned(); },
+    {"penalty", [](const map_run& run) { return run.uses_continuation(); },
+     [](const map_run& run) { return penalty_continuation(run).make(); }},
+    {"penalty from free map", [](const map_run& run) { return run.uses_continuation() && run.outline_pinned(); },
      [](const map_run& run)
      {
-         run_start start = drawn_start(run, drawn_start::from::free_map).make();
+         run_start start = penalty_continuation(run, penalty_continuation::from::free_map).make();
          if (!start.useless || start.stopped || start.map.uv.empty()) return start;
          start.useless = false;
          return fitted_start(run, std::move(start), false);

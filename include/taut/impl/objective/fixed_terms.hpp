@@ -11,7 +11,7 @@
 #include <taut/impl/compute/handler.hpp>
 #include <taut/impl/compute/vector_space.hpp>
 #include <taut/impl/constrain/slide.hpp>
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/mesh/layout.hpp>
 #include <taut/impl/objective/element_hessian.hpp>
 #include <taut/impl/objective/real_types.hpp>
@@ -39,7 +39,7 @@ public:
     }
 
     /// Replaces what is fixed, in the user's numbering. marks: one per vertex, or none. slides: at most one per vertex.
-    void fix(const layout<Element>& mesh_layout, const held_marks<D>& marks, std::span<const taut::slide<D>> slides)
+    void fix(const layout<Element>& mesh_layout, const fixed_marks<D>& marks, std::span<const taut::slide<D>> slides)
     {
         fix(mesh_layout, marks);
         slide(mesh_layout, slides);
@@ -156,7 +156,7 @@ private:
     static constexpr std::size_t at(idx k) { return static_cast<std::size_t>(k); }
     static constexpr int pair(int i, int j) { return i > j ? pair(j, i) : i * D - i * (i - 1) / 2 + (j - i); }
 
-    void fix(const layout<Element>& mesh_layout, const held_marks<D>& marks)
+    void fix(const layout<Element>& mesh_layout, const fixed_marks<D>& marks)
     {
         coordinates_.clear();
         std::vector<idx> places, entries, cells, corners;

@@ -57,7 +57,7 @@ class plane_newton
 public:
     /// held: coordinates that are not moved, of each vertex. All are referred to.
     plane_newton(std::span<const std::array<idx, 3>> cells, std::span<const target_shape<2>> shapes,
-                 const held_marks<2>& held)
+                 const fixed_marks<2>& held)
         : cells_(cells),
           shapes_(shapes),
           held_(held),
@@ -122,7 +122,7 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    static std::vector<char> pinned(const held_marks<2>& held)
+    static std::vector<char> pinned(const fixed_marks<2>& held)
     {
         std::vector<char> flags(held.size());
         for (std::size_t v = 0; v < held.size(); ++v) flags[v] = held.all(v);
@@ -201,7 +201,7 @@ private:
 
     std::span<const std::array<idx, 3>> cells_;
     std::span<const target_shape<2>> shapes_;
-    const held_marks<2>& held_;
+    const fixed_marks<2>& held_;
     front_cholesky solver_;
     std::vector<front_cholesky::block> blocks_;
     std::vector<std::array<vec2, 3>> forces_;

@@ -13,7 +13,6 @@
 #include <taut/impl/constrain/fixed_coordinates.hpp>
 #include <taut/impl/constrain/untangle_problem.hpp>
 #include <taut/impl/core/single.hpp>
-#include <taut/impl/exact/certify.hpp>
 #include <taut/impl/exact/collapses.hpp>
 #include <taut/impl/measure/planar_size.hpp>
 #include <taut/impl/objective/mapped_mesh.hpp>

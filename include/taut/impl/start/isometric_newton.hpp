@@ -48,10 +48,10 @@ private:
         auto derivatives(double I, double d) const { return energy::isometric::derivatives(I, d); }
     };
 
-    static held_marks<2> marks(std::span<const char> fixed)
+    static fixed_marks<2> marks(std::span<const char> fixed)
     {
-        held_marks<2> held(fixed.size());
-        for (std::size_t v = 0; v < fixed.size(); ++v) held[v] = fixed[v] ? held_marks<2>::every : 0;
+        fixed_marks<2> held(fixed.size());
+        for (std::size_t v = 0; v < fixed.size(); ++v) held[v] = fixed[v] ? fixed_marks<2>::every : 0;
         return held;
     }
 
@@ -72,7 +72,7 @@ private:
         return all;
     }
 
-    held_marks<2> held_;
+    fixed_marks<2> held_;
     std::vector<target_shape<2>> shapes_;
     plane_newton<term> newton_;
 };

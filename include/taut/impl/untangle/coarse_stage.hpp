@@ -86,7 +86,7 @@ private:
     {
         const auto& problem = state.problem();
         const auto& chosen = h.levels[l].vertices;
-        untangle_problem<triangle> part{level_mesh(h, l, problem.rest.points()), {}, held_marks<2>(chosen.size()), {}};
+        untangle_problem<triangle> part{level_mesh(h, l, problem.rest.points()), {}, fixed_marks<2>(chosen.size()), {}};
         for (std::size_t i = 0; i < chosen.size(); ++i)
         {
             const auto v = static_cast<std::size_t>(chosen[i]);

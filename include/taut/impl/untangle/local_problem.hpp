@@ -64,7 +64,7 @@ std::optional<local_problem<Element>> part_of(const untangle_problem<Element>& p
     for (auto& t : cells)
         for (idx& v : t) v = number[at(v)];
     return local_problem<Element>{{mesh<Element>(std::move(points), std::move(cells)), std::move(initial),
-                                   held_marks<D>(std::move(bits)), std::move(draft), std::move(wanted),
+                                   fixed_marks<D>(std::move(bits)), std::move(draft), std::move(wanted),
                                    std::move(owners)},
                                   std::move(vertices)};
 }

@@ -120,7 +120,7 @@ private:
         auto laid = impl::laid_start(state.problem(), state.initial(), state.draft());
         if (!laid) return false;
         x_ = std::move(*laid);
-        held_ = held_marks<2>(x_.size());
+        held_ = fixed_marks<2>(x_.size());
         return injective(state.problem().rest);
     }
 
@@ -153,7 +153,7 @@ private:
 
     pull_stage_params params_;
     std::unique_ptr<regularized_newton<triangle>> newton_;
-    held_marks<2> held_; // by newton_
+    fixed_marks<2> held_; // by newton_
     std::vector<vec2> x_;
     std::mt19937 random_{1};
     int standing_ = 0;  // steps in a row that could not be made

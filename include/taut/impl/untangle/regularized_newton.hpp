@@ -26,7 +26,7 @@ struct regularized_problem
     static constexpr int D = Element::dimension;
 
     const mesh<Element>& rest;                   ///< referred to
-    const held_marks<D>& held;                   ///< these coordinates are not moved; referred to
+    const fixed_marks<D>& held;                  ///< these coordinates are not moved; referred to
     std::vector<impl::target_shape<D>> shapes{}; ///< one per element
     double area_weight = 1;                      ///< of det + 1 / det against the shape
     std::vector<directed_spring<D>> springs{};

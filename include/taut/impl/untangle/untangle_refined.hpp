@@ -95,7 +95,7 @@ refined_problem<Element> refine_problem(const untangle_problem<Element>& p, cons
             wanted.push_back(p.wanted[k] * std::pow(1 / parts[k], 1.0 / D)); // together they count as the whole
         }
     }
-    refined_problem<Element> result{{std::move(rest), moved(p.initial), held_marks<D>(std::move(bits))}};
+    refined_problem<Element> result{{std::move(rest), moved(p.initial), fixed_marks<D>(std::move(bits))}};
     if (!p.draft.empty()) result.problem.draft = moved(p.draft);
     result.problem.wanted = std::move(wanted);
     result.how = how;

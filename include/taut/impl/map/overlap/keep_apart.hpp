@@ -131,8 +131,8 @@ private:
 };
 
 /// End vertices of two crossing boundary edges whose vertices are all fixed; none if there are none.
-inline std::vector<idx> held_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
-                                    const std::vector<vec2>& x)
+inline std::vector<idx> fixed_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
+                                     const std::vector<vec2>& x)
 {
     const auto& marks = run.held.marks();
     std::vector<idx> ends;
@@ -162,7 +162,7 @@ inline map_result kept_apart(const map_run& run, map_result r)
     r.report.seconds = run.clock.seconds;
     if (told.before.pairs == 0) return r;
     told.energy_before = r.report.solve.value;
-    if (auto ends = held_across(run, loops, r.uv); !ends.empty())
+    if (auto ends = fixed_across(run, loops, r.uv); !ends.empty())
         return refused(std::move(r), {outcome::infeasible,
                                       "edges " + std::to_string(ends[0]) + '-' + std::to_string(ends[1]) + " and " +
                                           std::to_string(ends[2]) + '-' + std::to_string(ends[3]) +

@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include <taut/impl/constrain/held_paths.hpp>
+#include <taut/impl/constrain/prescribed_paths.hpp>
+#include <taut/impl/map/session/initial_guess.hpp>
 #include <taut/impl/map/session/repair.hpp>
 #include <taut/impl/map/session/session_call.hpp>
-#include <taut/impl/map/session/turned_draft.hpp>
 #include <taut/impl/objective/running_map.hpp>
 #include <taut/impl/untangle/proofs/infeasible.hpp>
 
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    held_paths<D> paths(const map& from) const
+    prescribed_paths<D> paths(const map& from) const
     {
         return {map_.of().rest.cells(), map_.fixed.marks(), from, map_.fixed.targets()};
     }
@@ -101,7 +101,7 @@ private:
         if constexpr (D == 3 && Element::oriented)
         {
             const auto how = map_.on().device().has_fp64() ? precision::mixed : precision::fp32;
-            auto found = draft_maker(map_.on(), call_.limited(untangling_), how).draft(map_.problem(last, true));
+            auto found = guess_maker(map_.on(), call_.limited(untangling_), how).make(map_.problem(last, true));
             call_.clock.stages.append(found.stages);
             call_.book(&session_seconds::follow, {.stage = "draft",
                                                   .vertices = found.vertices,

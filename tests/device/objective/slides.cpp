@@ -23,9 +23,9 @@ struct sliding_cube
 {
     mesh<tetrahedron> flat = test::jittered_cube(test::sized(6, 4), 7);
     rigid_motion<3> turn{.from = vec3(0), .to = vec3(1, 2, 3), .axis = glm::normalize(vec3(1, 2, -1)), .angle = 0.8};
-    held_marks<3> held{flat.points().size()};
+    fixed_marks<3> held{flat.points().size()};
     std::vector<vec3> turned;
-    point_constraints<3> slides{held_marks<3>(flat.points().size()), {}, {}};
+    point_constraints<3> slides{fixed_marks<3>(flat.points().size()), {}, {}};
 
     sliding_cube()
     {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 
 namespace taut::impl
@@ -21,15 +21,15 @@ namespace taut::impl
 /// remaining displacement is linear. On straight lines alone a face that rotates by half a turn would shrink to a point
 /// half way.
 template <int D>
-class held_paths
+class prescribed_paths
 {
 public:
     using map = std::vector<vec<D>>;
 
     /// cells: their D + 1 vertices. from, to: one position per vertex, of `to` only fixed coordinates are read. Refers
     /// to them and to the marks.
-    held_paths(std::span<const std::array<idx, D + 1>> cells, const held_marks<D>& marks, const map& from,
-               const map& to)
+    prescribed_paths(std::span<const std::array<idx, D + 1>> cells, const fixed_marks<D>& marks, const map& from,
+                     const map& to)
         : marks_(marks), from_(from), to_(to), body_(marks.size(), -1)
     {
         for (const auto& body : bodies(cells))
@@ -112,7 +112,7 @@ private:
         return found;
     }
 
-    const held_marks<D>& marks_;
+    const fixed_marks<D>& marks_;
     const map &from_, &to_;
     std::vector<idx> body_; ///< body of each vertex, or -1
     std::vector<rigid_motion<D>> motions_;

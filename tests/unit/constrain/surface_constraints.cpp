@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/constrain/held_coordinates.hpp>
+#include <taut/impl/constrain/surface_constraints.hpp>
 
 using namespace taut;
 using namespace taut::impl;
@@ -16,7 +16,7 @@ TEST_CASE("held coordinates: how far pins are from their places, as a part of th
     pins.pin(0, {1, 1}).pin(3, {3, 1}).pin(7, {3, 2}).pin(12, {1, 2}).pin_u(9, 40);
     for (const double unit : {1.0, 250.0})
     {
-        const held_coordinates held(pins, m.points().size(), {}, unit);
+        const surface_constraints held(pins, m.points().size(), {}, unit);
         std::vector<vec2> uv(m.points().size(), vec2(0.3));
         held.impose(uv, unit);
         CHECK(held.misfit(uv) == 0);
@@ -33,5 +33,5 @@ TEST_CASE("held coordinates: a single pin has no size to be far from")
     const auto m = test::grid(2, 2);
     constraints<triangle> pins(m);
     pins.pin(0, {1, 1});
-    CHECK(held_coordinates(pins, m.points().size(), {}, 1).misfit(std::vector<vec2>(9, vec2(0))) == 0);
+    CHECK(surface_constraints(pins, m.points().size(), {}, 1).misfit(std::vector<vec2>(9, vec2(0))) == 0);
 }

@@ -20,7 +20,7 @@ namespace taut::impl
 /// flip. A boundary that is pinned as a whole is fixed from the beginning, and only inner pins get springs. The energy
 /// is a barrier, so all maps on the way are injective, and what is around a pin is dragged along, which ends in better
 /// minima than untangling does.
-class drawn_start
+class penalty_continuation
 {
 public:
     enum class from
@@ -30,7 +30,7 @@ public:
     };
 
     /// run: one with a penalty continuation; referred to.
-    explicit drawn_start(const map_run& run, from where = from::constraints)
+    explicit penalty_continuation(const map_run& run, from where = from::constraints)
         : run_(run),
           free_(where == from::free_map),
           bound_(!free_ && run.held.outline_pinned(run.in.surface, run.in.sides)),
@@ -182,12 +182,12 @@ private:
     std::vector<vec2> within_outline(const mesh<triangle>& surface, const std::vector<idx>& there) const
     {
         const std::size_t n = surface.points().size();
-        untangle_problem<triangle> problem{surface, std::vector<vec2>(n, vec2(0)), held_marks<2>(n)};
+        untangle_problem<triangle> problem{surface, std::vector<vec2>(n, vec2(0)), fixed_marks<2>(n)};
         for (std::size_t v = 0; v < there.size(); ++v)
         {
             if (!anchored_[v]) continue;
             problem.initial[static_cast<std::size_t>(there[v])] = places_[v];
-            problem.held[static_cast<std::size_t>(there[v])] = held_marks<2>::every;
+            problem.held[static_cast<std::size_t>(there[v])] = fixed_marks<2>::every;
         }
         return untangle(problem, {.stages = {"harmonic", "newton"}, .rounds = 1}).map;
     }
@@ -247,7 +247,7 @@ private:
     static constexpr int most_strides = 24;
     static constexpr int most_steps = 40;
     static constexpr double roughly = 1e-3; // the gradient of a map that will be moved
-    static constexpr double near = 0.25;    // of held_coordinates::misfit()
+    static constexpr double near = 0.25;    // of surface_constraints::misfit()
 
     const map_run& run_;
     bool free_;

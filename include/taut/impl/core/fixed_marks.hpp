@@ -12,14 +12,14 @@ namespace taut::impl
 
 /// Flags of fixed coordinates: one byte per vertex, whose bit k says that coordinate k is fixed.
 template <int D>
-class held_marks
+class fixed_marks
 {
 public:
     static constexpr std::uint8_t every = (1u << D) - 1; ///< all coordinates of a vertex
 
-    held_marks() = default; ///< flags of no vertex
-    explicit held_marks(std::size_t vertices) : bits_(vertices, 0) {}
-    explicit held_marks(std::vector<std::uint8_t> bits) : bits_(std::move(bits)) {} ///< one per vertex
+    fixed_marks() = default; ///< flags of no vertex
+    explicit fixed_marks(std::size_t vertices) : bits_(vertices, 0) {}
+    explicit fixed_marks(std::vector<std::uint8_t> bits) : bits_(std::move(bits)) {} ///< one per vertex
 
     std::size_t size() const noexcept { return bits_.size(); } ///< vertices
     bool empty() const noexcept { return bits_.empty(); }
@@ -48,14 +48,14 @@ public:
     }
 
     /// The same without those of pinned vertices.
-    held_marks without_pinned() const
+    fixed_marks without_pinned() const
     {
-        held_marks rest = *this;
+        fixed_marks rest = *this;
         std::replace(rest.bits_.begin(), rest.bits_.end(), every, std::uint8_t(0));
         return rest;
     }
 
-    friend bool operator==(const held_marks&, const held_marks&) = default;
+    friend bool operator==(const fixed_marks&, const fixed_marks&) = default;
 
 private:
     std::vector<std::uint8_t> bits_;

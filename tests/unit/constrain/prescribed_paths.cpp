@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/constrain/held_paths.hpp>
+#include <taut/impl/constrain/prescribed_paths.hpp>
 
 using namespace taut;
 using namespace taut::impl;
@@ -16,7 +16,7 @@ TEST_CASE("held paths: two ends of a bar that turn against each other keep their
 {
     const auto m = test::cube(3);
     auto from = m.points(), to = from;
-    held_marks<3> marks(from.size());
+    fixed_marks<3> marks(from.size());
     const rigid_motion<3> half{
         .from = vec3(0.5), .to = vec3(0.5), .axis = {0, 0, 1}, .angle = 0.999 * std::numbers::pi};
     for (std::size_t v = 0; v < from.size(); ++v)
@@ -24,7 +24,7 @@ TEST_CASE("held paths: two ends of a bar that turn against each other keep their
         if (from[v].z == 0) marks[v] = marks.every;
         if (from[v].z == 1) marks[v] = marks.every, to[v] = half(from[v]);
     }
-    const held_paths<3> paths(m.cells(), marks, from, to);
+    const prescribed_paths<3> paths(m.cells(), marks, from, to);
     CHECK(paths.parts() == 6);
     CHECK(paths.parts(7.0) == 1);
     for (const double t : {0.25, 0.5, 0.75, 1.0})
@@ -49,7 +49,7 @@ TEST_CASE("held paths: what changes its shape does so little by little, single c
 {
     const auto m = test::grid(3, 3);
     std::vector<vec2> from, to;
-    held_marks<2> marks(m.points().size());
+    fixed_marks<2> marks(m.points().size());
     for (const vec3& p : m.points())
     {
         from.emplace_back(p);
@@ -57,7 +57,7 @@ TEST_CASE("held paths: what changes its shape does so little by little, single c
     }
     for (std::size_t v = 0; v < from.size(); ++v)
         marks[v] = from[v].y == 0 ? marks.every : from[v].y == 1 ? std::uint8_t{1} : std::uint8_t{0};
-    const held_paths<2> paths(m.cells(), marks, from, to);
+    const prescribed_paths<2> paths(m.cells(), marks, from, to);
     CHECK(paths.parts() == 1);
     auto x = from;
     for (std::size_t v = 0; v < x.size(); ++v)

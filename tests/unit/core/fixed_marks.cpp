@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include <taut/impl/core/held_marks.hpp>
+#include <taut/impl/core/fixed_marks.hpp>
 
 TEST_CASE("held marks: coordinates of a vertex are held one by one or all together")
 {
-    taut::impl::held_marks<2> held(4);
+    taut::impl::fixed_marks<2> held(4);
     CHECK(held.size() == 4);
     CHECK_FALSE(held.any());
     held[1] = 1;
@@ -23,7 +23,7 @@ TEST_CASE("held marks: coordinates of a vertex are held one by one or all togeth
     CHECK_FALSE(held.any(0));
     CHECK(held.count() == 1);
     CHECK(held.pinned() == std::vector<bool>{false, false, true, false});
-    CHECK(held.without_pinned() == taut::impl::held_marks<2>(std::vector<std::uint8_t>{0, 1, 0, 2}));
-    CHECK(taut::impl::held_marks<3>::every == 7);
-    CHECK(taut::impl::held_marks<3>().empty());
+    CHECK(held.without_pinned() == taut::impl::fixed_marks<2>(std::vector<std::uint8_t>{0, 1, 0, 2}));
+    CHECK(taut::impl::fixed_marks<3>::every == 7);
+    CHECK(taut::impl::fixed_marks<3>().empty());
 }

@@ -20,19 +20,19 @@ namespace taut::impl
 
 /// Fixed coordinates of a map of a surface: those of a fixed boundary and of pins. Lengths of maps are `unit` times
 /// those of the constraints.
-class held_coordinates
+class surface_constraints
 {
 public:
     /// fixed: the vertices of a fixed boundary; none where it is free. Throws parameter_error for constraints of
     /// another mesh; constraint_error (not_finite) for targets that are too far away in lengths of `unit`.
-    held_coordinates(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
+    surface_constraints(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
         : wanted_(std::move(wanted)), free_boundary_(fixed.empty()), unit_(unit)
     {
         for (const auto& [v, pin] : wanted_.pins()) require(v, vertices);
         for (const auto& s : wanted_.springs()) require(s.vertex, vertices);
         wanted_.require_near(unit);
         if (free_boundary_ && wanted_.pins().empty()) return;
-        marks_ = held_marks<2>(vertices);
+        marks_ = fixed_marks<2>(vertices);
         for (const idx v : fixed) marks_[static_cast<std::size_t>(v)] = marks_.every;
         for (const auto& [v, pin] : wanted_.pins()) marks_[static_cast<std::size_t>(v)] |= pin.held;
     }
@@ -77,7 +77,7 @@ public:
     bool pinned() const { return !wanted_.pins().empty(); }
 
     /// One per vertex; none if nothing is fixed.
-    const held_marks<2>& marks() const { return marks_; }
+    const fixed_marks<2>& marks() const { return marks_; }
 
     /// True if the constraints pin every vertex of the boundary.
     bool outline_pinned(const mesh<triangle>& m, const facet_table& sides) const
@@ -158,7 +158,7 @@ public:
 
     untangle_problem<triangle> problem(const mesh<triangle>& m, std::vector<vec2> uv) const
     {
-        return {m, std::move(uv), marks_.empty() ? held_marks<2>(m.points().size()) : marks_};
+        return {m, std::move(uv), marks_.empty() ? fixed_marks<2>(m.points().size()) : marks_};
     }
 
     /// Constraints other than pins, for a map whose origin is `centre`.
@@ -194,7 +194,7 @@ private:
     constraints<triangle> wanted_;
     bool free_boundary_;
     double unit_;
-    held_marks<2> marks_;
+    fixed_marks<2> marks_;
 };
 
 } // namespace taut::impl

@@ -35,7 +35,7 @@ inline std::optional<coarse_problem> coarser(const untangle_problem<tetrahedron>
         make_coarser(mesh<tetrahedron>(p.draft, p.rest.cells()), held, factor, [&clock] { return clock.in_time(); });
     if (2 * thinned.vertices.size() > held.size()) return std::nullopt;
     untangle_problem<tetrahedron> q{
-        thinned.volume, {}, held_marks<3>(thinned.vertices.size()), thinned.volume.points()};
+        thinned.volume, {}, fixed_marks<3>(thinned.vertices.size()), thinned.volume.points()};
     for (std::size_t k = 0; k < thinned.vertices.size(); ++k)
     {
         const auto v = static_cast<std::size_t>(thinned.vertices[k]);
@@ -74,9 +74,9 @@ inline std::vector<mat3> vertex_gradients(const mesh<tetrahedron>& m, const std:
 /// Prolongs x, a shape of the coarser volume, to the mesh m: gradients are those of the coarser one at its vertices,
 /// smooth in between, and the shape is the one whose gradients are nearest to them. Fixed coordinates have the targets
 /// `to`.
-inline std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
-                                    const coarser_volume& coarse, const std::vector<vec3>& x, const held_marks<3>& held,
-                                    const std::vector<vec3>& to)
+inline std::vector<vec3> prolonged_guess(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
+                                         const coarser_volume& coarse, const std::vector<vec3>& x,
+                                         const fixed_marks<3>& held, const std::vector<vec3>& to)
 {
     const auto at = [](idx v) { return static_cast<std::size_t>(v); };
     const auto gradients = vertex_gradients(coarse.volume, x);

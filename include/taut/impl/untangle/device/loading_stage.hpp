@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/constrain/held_paths.hpp>
+#include <taut/impl/constrain/prescribed_paths.hpp>
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/objective/running_map.hpp>
@@ -20,13 +20,13 @@ namespace taut::impl
 /// to their targets by Newton's steps with prescribed displacements: elements stay positive on the way. For handles of
 /// a body whose surface is free; it gives up where steps stick.
 template <class Element>
-class lead_stage final : public untangle_stage<Element>
+class loading_stage final : public untangle_stage<Element>
 {
     static constexpr int D = Element::dimension;
     using map = std::vector<vec<D>>;
 
 public:
-    explicit lead_stage(queue q) : queue_(std::move(q)) {}
+    explicit loading_stage(queue q) : queue_(std::move(q)) {}
 
     std::string_view name() const override { return "lead"; }
 
@@ -41,7 +41,7 @@ public:
         running.fixed = {problem.held, problem.initial};
         running.load(x, queue_.device().has_fp64() ? precision::mixed : precision::fp32);
 
-        const held_paths<D> paths(problem.rest.cells(), problem.held, x, problem.initial);
+        const prescribed_paths<D> paths(problem.rest.cells(), problem.held, x, problem.initial);
         const int parts = paths.parts();
         for (int part = 1; part <= parts; ++part)
         {

@@ -22,7 +22,7 @@ using namespace taut::impl;
 struct held_setting
 {
     mesh<triangle> surface = test::bumpy(test::sized(14, 4), 0.25, 2);
-    held_marks<2> held{surface.points().size()}; ///< in the user's numbers
+    fixed_marks<2> held{surface.points().size()}; ///< in the user's numbers
     queue q;
 
     held_setting()
