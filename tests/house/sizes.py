@@ -11,7 +11,7 @@ FILES, INCLUDES, LINES = 30, 8, 60
 ROOMS = {
     "io": (65, "a reader and a writer of each format"),
     "atlas": (60, "cutting, seams and symmetry are to be rooms"),
-    "map": (40, "sessions, overlap and entry points"),
+    "map": (39, "sessions, overlap and entry points"),
     "untangle": (50, "stages, proofs and the device"),
     "edit": (40, "regions, radial basis functions and paste"),
     "compute": (40, "the only room that sees OpenCL"),
@@ -21,7 +21,7 @@ ROOMS = {
 
 # Headers above 8 includes of the library. Public headers gather what belongs together and have no bound.
 GATHER = {
-    "impl/map/session/initial_guess.hpp": 12,
+    "impl/map/session/initial_guess.hpp": 13,
     "impl/atlas/flat_charts.hpp": 14,
     "impl/atlas/make_atlas.ipp": 15,
     "impl/io/volume/read_volume.ipp": 11,

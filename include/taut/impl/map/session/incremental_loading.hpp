@@ -7,6 +7,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <taut/impl/constrain/prescribed_paths.hpp>
 #include <taut/impl/map/session/initial_guess.hpp>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include <taut/impl/map/session.hpp>
 
 #include <taut/impl/map/mapped.hpp>

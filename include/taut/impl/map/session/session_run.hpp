@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <span>
+#include <string>
 #include <utility>
 
 #include <taut/impl/energy/distortion.hpp>

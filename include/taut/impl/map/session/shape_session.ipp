@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include <taut/impl/map/session.hpp>
 
 #include <taut/impl/map/session/session_run.hpp>
