@@ -131,8 +131,7 @@ inline run_start start_from(const map_run& run, start_map map)
     return start.useless ? start : fitted_start(run, std::move(start), false);
 }
 
-/// The makers of initial maps; the last ones make them on the mesh itself. A penalty continuation from the
-/// unconstrained map is for pins of the whole boundary, if a similarity brings that map near to them.
+/// The makers of initial maps; the last ones make them on the mesh itself.
 inline constexpr start_maker start_makers[] = {
     {"given", [](const map_run& run) { return !run.params.initial.empty(); },
      [](const map_run& run)
@@ -150,14 +149,6 @@ inline constexpr start_maker start_makers[] = {
      }},
     {"penalty", [](const map_run& run) { return run.uses_continuation(); },
      [](const map_run& run) { return penalty_continuation(run).make(); }},
-    {"penalty from free map", [](const map_run& run) { return run.uses_continuation() && run.outline_pinned(); },
-     [](const map_run& run)
-     {
-         run_start start = penalty_continuation(run, penalty_continuation::from::free_map).make();
-         if (!start.useless || start.stopped || start.map.uv.empty()) return start;
-         start.useless = false;
-         return fitted_start(run, std::move(start), false);
-     }},
     {"free map",
      [](const map_run& run)
      {
