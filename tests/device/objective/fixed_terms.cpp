@@ -66,7 +66,7 @@ TEST_CASE("held: a step towards given places has them for its held part, and for
     f.constrain(wanted);
     auto places = start;
     for (vec2& p : places) p += vec2(0.01, -0.02);
-    f.aim(places);
+    f.aim([&places](std::size_t v) { return places[v]; });
 
     auto d = f.space().make(), g = f.space().make(), g0 = f.space().make(), Hd = f.space().make();
     const auto change = f.linearize_towards(x, 0.5, d, g);

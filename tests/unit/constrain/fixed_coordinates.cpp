@@ -4,34 +4,51 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/constrain/surface_constraints.hpp>
+#include <taut/impl/constrain/fixed_coordinates.hpp>
 
 using namespace taut;
 using namespace taut::impl;
 
-TEST_CASE("held coordinates: how far pins are from their places, as a part of the size of those, in any unit")
+TEST_CASE("fixed coordinates: pins, vertices that keep their positions, and slides, relative to the first map")
 {
     const auto m = test::grid(4, 3);
+    std::vector<vec2> start;
+    for (const vec3& p : m.points()) start.emplace_back(p);
+    fixed_coordinates<triangle> fixed(start, {0, 1}, {slide<2>::along(5, {1, 0})});
     constraints<triangle> pins(m);
-    pins.pin(0, {1, 1}).pin(3, {3, 1}).pin(7, {3, 2}).pin(12, {1, 2}).pin_u(9, 40);
-    for (const double unit : {1.0, 250.0})
-    {
-        const surface_constraints held(pins, m.points().size(), {}, unit);
-        std::vector<vec2> uv(m.points().size(), vec2(0.3));
-        held.impose(uv, unit);
-        CHECK(held.misfit(uv) == 0);
-        // A tenth larger about their centre.
-        for (vec2& p : uv) p = held.centre() + 1.1 * (p - held.centre());
-        CHECK(held.misfit(uv) == doctest::Approx(0.1));
-        for (vec2& p : uv) p += vec2(0, 100 * unit);
-        CHECK(held.misfit(uv) > 50);
-    }
+    pins.pin(1, {9, 8}).pin_u(7, 4);
+    CHECK(fixed.take(pins));
+    CHECK(!fixed.take(pins)); // the same coordinates again
+    CHECK(fixed.marks().all(0));
+    CHECK(fixed.marks()[7] == 1);
+    CHECK(fixed.targets()[0] == start[0]);
+    CHECK(fixed.targets()[1] == vec2(9, 8));
+
+    std::vector<vec2> x(start.size(), vec2(0.25));
+    CHECK(fixed.gap(x).vertex == 1);
+    CHECK(fixed.gap(x, [&](std::size_t v) { return x[v]; }).vertex == -1);
+    fixed.impose(x);
+    CHECK(fixed.gap(x).vertex == -1);
+    CHECK(x[7] == vec2(4, 0.25));
+    CHECK(x[5] == vec2(0.25, start[5].y));
+    CHECK(x[6] == vec2(0.25));
+
+    CHECK(fixed.take(constraints<triangle>(m))); // released: vertex 1 goes back, vertex 7 is free
+    CHECK(fixed.targets()[1] == start[1]);
+    CHECK(!fixed.marks().any(7));
 }
 
-TEST_CASE("held coordinates: a single pin has no size to be far from")
+TEST_CASE("fixed coordinates: those that a device has rounded are set to the last bit, others stay")
 {
     const auto m = test::grid(2, 2);
+    fixed_coordinates<triangle> fixed(std::vector<vec2>(9, vec2(0)), {});
     constraints<triangle> pins(m);
-    pins.pin(0, {1, 1});
-    CHECK(surface_constraints(pins, m.points().size(), {}, 1).misfit(std::vector<vec2>(9, vec2(0))) == 0);
+    pins.pin(0, {0.1, 0.2}).pin(3, {0.3, 0.4});
+    fixed.take(pins);
+    const auto rounded = [&](std::size_t v) { return vec2(float(fixed.targets()[v].x), float(fixed.targets()[v].y)); };
+    std::vector<vec2> x(9, vec2(0.7));
+    x[0] = rounded(0);
+    fixed.impose(x, rounded);
+    CHECK(x[0] == vec2(0.1, 0.2));
+    CHECK(x[3] == vec2(0.7));
 }

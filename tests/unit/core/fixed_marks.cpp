@@ -6,7 +6,7 @@
 
 #include <taut/impl/core/fixed_marks.hpp>
 
-TEST_CASE("held marks: coordinates of a vertex are held one by one or all together")
+TEST_CASE("fixed marks: coordinates of a vertex are held one by one or all together")
 {
     taut::impl::fixed_marks<2> held(4);
     CHECK(held.size() == 4);

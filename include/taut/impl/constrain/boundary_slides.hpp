@@ -16,7 +16,8 @@
 namespace taut::impl
 {
 
-/// Sliding constraints of boundary vertices that keep the shape of the boundary.
+/// Constraints that keep the shape of a boundary: a vertex in a flat part of it moves in its plane, one on a straight
+/// crease (in the plane, a straight outline) along it, all others are pinned. Fixed coordinates are met bit for bit.
 template <class Element>
 struct boundary_motion
 {
@@ -200,19 +201,5 @@ private:
     double tolerance_;
     std::vector<span_of_normals<D>> normals_;
 };
-
-/// Computes the motions that preserve the boundary of a mesh: a vertex in a flat part of it moves in its plane, one on
-/// a straight crease (in the plane, a straight outline) along it, all others are pinned. Fixed coordinates are met bit
-/// for bit.
-///
-/// tolerance: sine of the angle up to which normals count as equal; owners: as for boundary_facets()
-template <class Element>
-boundary_motion<Element> sliding_boundary(const mesh<Element>& m, double tolerance = 1e-4,
-                                          std::span<const idx> owners = {})
-{
-    impl::kept_directions<Element> kept(m, tolerance);
-    kept.add(boundary_facets(m, owners));
-    return kept.motion();
-}
 
 } // namespace taut::impl

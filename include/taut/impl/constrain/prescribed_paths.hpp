@@ -26,9 +26,10 @@ class prescribed_paths
 public:
     using map = std::vector<vec<D>>;
 
-    /// cells: their D + 1 vertices. from, to: one position per vertex, of `to` only fixed coordinates are read.
+    /// cells: their D + 1 vertices. from, to: one position per vertex, of `to` only fixed coordinates are read. Refers
+    /// to them and to the marks.
     prescribed_paths(std::span<const std::array<idx, D + 1>> cells, const fixed_marks<D>& marks, const map& from,
-                const map& to)
+                     const map& to)
         : marks_(marks), from_(from), to_(to), body_(marks.size(), -1)
     {
         for (const auto& body : bodies(cells))
@@ -62,26 +63,16 @@ public:
         return m.angle * m.axis;
     }
 
-    /// Sets fixed coordinates of x to their positions at the fraction t of the path; to the last bit where t is 1.
-    void place(double t, map& x) const
+    /// Position of the fixed coordinates of vertex v at the fraction t of its path; to the last bit where t is 1.
+    vec<D> place(std::size_t v, double t) const
     {
-        for (std::size_t v = 0; v < marks_.size(); ++v)
-        {
-            if (!marks_.any(v)) continue;
-            const vec<D> p = t >= 1 ? to_[v] : where(v, t);
-            for (int k = 0; k < D; ++k)
-                if (marks_.test(v, k)) x[v][k] = p[k];
-        }
-    }
-
-private:
-    vec<D> where(std::size_t v, double t) const
-    {
+        if (t >= 1) return to_[v];
         if (body_[v] < 0) return from_[v] + t * (to_[v] - from_[v]);
         const auto& m = motions_[static_cast<std::size_t>(body_[v])];
         return m(from_[v], t) + t * m.turned(to_[v] - m(from_[v]), (t - 1) * m.angle);
     }
 
+private:
     /// Connected pinned vertices.
     std::vector<std::vector<std::size_t>> bodies(std::span<const std::array<idx, D + 1>> cells) const
     {
@@ -121,8 +112,8 @@ private:
         return found;
     }
 
-    fixed_marks<D> marks_;
-    map from_, to_;
+    const fixed_marks<D>& marks_;
+    const map &from_, &to_;
     std::vector<idx> body_; ///< body of each vertex, or -1
     std::vector<rigid_motion<D>> motions_;
     std::vector<std::size_t> sizes_; ///< numbers of vertices of the bodies

@@ -116,22 +116,6 @@ public:
         for (vec2& p : uv) p = map(p);
     }
 
-    /// Distance of pinned vertices of a map from their targets relative to the distance of the targets from their
-    /// centre: root mean squares.
-    double misfit(const std::vector<vec2>& uv) const
-    {
-        const vec2 middle = centre();
-        double away = 0, size = 0;
-        for (const auto& [v, p] : wanted_.pins())
-        {
-            if (p.held != marks_.every) continue;
-            const vec2 place = p.value * unit_, off = uv[static_cast<std::size_t>(v)] - place, out = place - middle;
-            away += glm::dot(off, off);
-            size += glm::dot(out, out);
-        }
-        return size > 0 ? std::sqrt(away / size) : 0.0;
-    }
-
     /// Sets fixed coordinates to their targets, in lengths of `unit` times the user's.
     void impose(std::vector<vec2>& uv, double unit) const
     {

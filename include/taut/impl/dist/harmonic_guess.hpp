@@ -18,7 +18,7 @@ namespace taut::dist::impl
 {
 
 /// Initial guess of a shape with pinned vertices at their targets, where bodies of them rotate, by harmonic guidance as
-/// turned_draft of one process: rotations, axis times angle, are harmonic between those of the bodies, and gradients
+/// harmonic_guess of one process: rotations, axis times angle, are harmonic between those of the bodies, and gradients
 /// nearest to the rotations of the elements (Zayer et al. 2005, "Harmonic guidance for surface deformation"). Six
 /// systems of one scalar Laplacian, by conjugate gradients with BoomerAMG.
 template <class Element>

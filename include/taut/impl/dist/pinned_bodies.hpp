@@ -18,8 +18,8 @@
 namespace taut::dist::impl
 {
 
-/// Paths of fixed vertices to their targets, as prescribed_paths of one process: bodies, connected by cells between pinned
-/// vertices, move rigidly, and the remaining displacement is linear.
+/// Paths of fixed vertices to their targets, as prescribed_paths of one process: bodies, connected by cells between
+/// pinned vertices, move rigidly, and the remaining displacement is linear.
 template <class Element>
 class pinned_bodies
 {

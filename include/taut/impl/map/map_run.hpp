@@ -10,19 +10,11 @@
 #include <taut/impl/constrain/surface_constraints.hpp>
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/run_surface.hpp>
+#include <taut/impl/objective/mapped_mesh.hpp>
 #include <taut/impl/objective/mesh_levels.hpp>
 
 namespace taut::impl
 {
-
-/// Binds the data and parameters to the user's energy. Throws parameter_error.
-inline parameterize_params validated(parameterize_params p)
-{
-    p.validate();
-    if (!p.parameters.empty()) p.energy = p.energy.with_parameters(p.parameters);
-    p.energy = p.energy.with_data(p.data.mean_attributes(), !p.data.directions.empty());
-    return p;
-}
 
 /// Prepared run of parameterize(): the input of all its phases.
 struct map_run
@@ -65,6 +57,8 @@ struct map_run
         return made;
     }
 
+    bool outline_pinned() const { return held.outline_pinned(in.surface, in.sides); }
+
     /// Returns whether the map is unconstrained.
     bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
 
@@ -84,7 +78,7 @@ struct map_run
     bool starts_coarse() const { return may_start_coarse() && !held.constrained(); }
 
     /// Returns whether pins are reached by a penalty continuation there.
-    bool draws_pins() const
+    bool uses_continuation() const
     {
         return may_start_coarse() && held.pinned() && params.boundary == boundary_mode::free && params.energy.barrier();
     }

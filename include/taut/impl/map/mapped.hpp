@@ -6,11 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/map/attempt_in_turns.hpp>
-#include <taut/impl/map/attempt_on_mesh.hpp>
-#include <taut/impl/map/choose_start.hpp>
 #include <taut/impl/map/overlap/keep_apart.hpp>
-#include <taut/impl/map/returned_map.hpp>
+#include <taut/impl/map/run_result.hpp>
+#include <taut/impl/map/starts.hpp>
 
 namespace taut::impl
 {
@@ -20,7 +18,7 @@ namespace taut::impl
 /// Start on the finest level that replaces one from coarser levels whose map could not be certified.
 inline run_start second_start(const map_run& run, const run_start& coarse, const attempt& failed)
 {
-    run_start start = made_start(run);
+    run_start start = make_start(run, on_the_mesh);
     std::vector<std::string> notes = coarse.notes;
     notes.insert(notes.end(), failed.notes.begin(), failed.notes.end());
     notes.push_back("the coarse start failed (" + failed.descent->failure + "); a barycentric start was made");
@@ -34,7 +32,7 @@ inline run_start second_start(const map_run& run, const run_start& coarse, const
 /// The map is in normalised units.
 inline map_result solved(const map_run& run)
 {
-    const run_start start = choose_start(run);
+    const run_start start = make_start(run);
     if (!start.ready()) return unsolved_result(run, start);
     attempt first = attempt_in_turns(run, start);
     if (first.certified || first.stopped || !start.coarse) return solved_result(run, start, std::move(first));
@@ -46,8 +44,8 @@ inline map_result solved(const map_run& run)
     return solved_result(run, second, attempt_in_turns(run, second));
 }
 
-// Declared in choose_start.hpp.
-inline std::vector<vec2> free_draft(const map_run& run)
+// Declared in starts.hpp.
+inline std::vector<vec2> free_map(const map_run& run)
 {
     auto params = run.params;
     params.constraints = {};
@@ -60,9 +58,9 @@ inline std::vector<vec2> free_draft(const map_run& run)
                         return run.clock.ask(now);
                     });
     const map_run free(run.queue, run.in, params, clock);
-    map_result draft = solved(free);
+    map_result found = solved(free);
     run.clock.stages.append(clock.stages.stages());
-    return draft ? std::move(draft.uv) : std::vector<vec2>();
+    return found ? std::move(found.uv) : std::vector<vec2>();
 }
 
 /// Does all of parameterize() except the counters. params: validated.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include <taut/impl/compute/handler.hpp>
 #include <taut/impl/compute/vector_space.hpp>
+#include <taut/impl/constrain/slide.hpp>
 #include <taut/impl/core/fixed_marks.hpp>
 #include <taut/impl/mesh/layout.hpp>
 #include <taut/impl/objective/element_hessian.hpp>
@@ -17,9 +19,11 @@
 namespace taut::impl
 {
 
-/// Fixed coordinates beside those that are pinned in the layout: vectors are zero there, and so are rows and columns of
-/// element Hessians, and with them the matrices of all levels. The set of fixed coordinates and their targets can
-/// change without rebuilding anything else. Kernels run over fixed coordinates, and the elements at them.
+/// Projection of displacements to the admissible ones, beside the vertices that are pinned in the layout: single
+/// coordinates are fixed (P is diagonal, of 0 and 1), and vertices slide along lines or planes of any direction.
+/// Vectors are projected, and so are rows and columns of element Hessians, and with them the matrices of all levels.
+/// What is fixed, and where it is to go, can change without rebuilding anything else. Kernels run over fixed
+/// coordinates and sliding vertices, and the elements at them.
 template <class Element>
 class fixed_terms
 {
@@ -34,55 +38,57 @@ public:
     {
     }
 
-    bool empty() const noexcept { return places_.empty(); }
-
-    /// Replaces the fixed coordinates. marks: one per vertex in the user's numbering, or none.
-    void hold(const layout<Element>& mesh_layout, const fixed_marks<D>& marks)
+    /// Replaces what is fixed, in the user's numbering. marks: one per vertex, or none. slides: at most one per vertex.
+    void fix(const layout<Element>& mesh_layout, const fixed_marks<D>& marks, std::span<const taut::slide<D>> slides)
     {
-        vertices_.clear();
-        std::vector<idx> places, entries, cells;
-        for (std::size_t v = 0; v < marks.size(); ++v)
-        {
-            if (!marks.any(v)) continue;
-            const idx here = mesh_layout.order.vertices.old_to_new[v];
-            for (int i = 0; i < D; ++i)
-            {
-                if (!marks.test(v, i)) continue;
-                vertices_.push_back({v, i});
-                places.push_back(here + i * vertex_stride_);
-                for (const idx corner : mesh_layout.vertex_corners.row(here))
-                    for (int l = 0; l < Element::corners; ++l)
-                        for (int j = 0; j < D; ++j)
-                            entries.push_back(corner / idx(Element::corners) +
-                                              slots::at(corner % Element::corners, i, l, j) * cell_stride_);
-            }
-            for (const idx corner : mesh_layout.vertex_corners.row(here)) cells.push_back(corner / Element::corners);
-        }
-        places_ = buffer_of(places);
-        entries_ = buffer_of(distinct(std::move(entries)));
-        cells = distinct(std::move(cells));
-        cells_ = buffer_of(cells);
-        std::vector<idx> corners;
-        for (std::size_t k = 0; k < Element::corners; ++k)
-            for (const idx c : cells)
-                corners.push_back(mesh_layout.corners[k * mesh_layout.cell_stride + static_cast<std::size_t>(c)]);
-        corners_ = buffer_of(corners);
+        fix(mesh_layout, marks);
+        slide(mesh_layout, slides);
     }
 
-    /// Sets the targets of fixed coordinates: those of a map in the user's numbers and units; no others are read.
-    void aim(const layout<Element>& mesh_layout, std::span<const vec<D>> map)
+    /// Sets the targets of fixed coordinates: target(v) is that of vertex v, in the user's numbering and units.
+    template <class Target>
+    void aim(const layout<Element>& mesh_layout, const Target& target)
     {
-        if (empty()) return;
+        if (places_.empty()) return;
         std::vector<double> targets;
-        for (const auto& [v, i] : vertices_) targets.push_back(map[v][i] * mesh_layout.scale);
+        for (const auto& [v, i] : coordinates_) targets.push_back(target(v)[i] * mesh_layout.scale);
         targets_ = real_buffer(queue_, types_.position, targets);
     }
 
-    /// Sets v = 0 at fixed coordinates.
-    void mask(device_vector& v) { clear("mask", places_, v.data()); }
+    /// v = P v.
+    void project(device_vector& v)
+    {
+        clear("mask", places_, v.data());
+        if (sliding_.empty()) return;
+        queue_.submit(
+            [&](handler& h)
+            {
+                const auto vertices = sliding_.read(h);
+                const auto P = projections_.read(h);
+                const auto x = v.data().read_write(h);
+                const auto n = h.uniform(static_cast<idx>(sliding_.size())), stride = h.uniform(vertex_stride_);
+                h.parallel_for("slide", sliding_.size(),
+                               [&](auto i)
+                               {
+                                   std::array<sym<double>, D> before;
+                                   for (int k = 0; k < D; ++k) before[at(k)] = x[vertices[i] + k * stride];
+                                   for (int k = 0; k < D; ++k)
+                                   {
+                                       sym<double> sum = 0.0;
+                                       for (int j = 0; j < D; ++j) sum = sum + P[i + pair(k, j) * n] * before[at(j)];
+                                       x[vertices[i] + k * stride] = sum;
+                                   }
+                               });
+            });
+    }
 
-    /// Sets rows and columns of fixed coordinates in the Hessians of elements, packed as in hessian_slots, to 0.
-    void mask_hessian(real_buffer& hessian) { clear("mask_hessian", entries_, hessian); }
+    /// H = P H P for the Hessians of elements, packed as in hessian_slots; blocks of a sliding vertex with itself get
+    /// their mean diagonal where P gives 0, so that they can be inverted. No vector depends on that.
+    void project_hessian(real_buffer& hessian)
+    {
+        if (!sliding_.empty()) slide_hessian(hessian);
+        clear("mask_hessian", entries_, hessian);
+    }
 
     /// d = a fraction of the remaining displacement at fixed coordinates; other places stay as they are.
     void gap(const device_vector& x, double share, device_vector& d)
@@ -110,8 +116,8 @@ public:
                     });
     }
 
-    /// Adds to the gradients of corners the products of the Hessians of elements, not masked yet, with d, which is zero
-    /// at all free coordinates.
+    /// Adds to the gradients of corners the products of the Hessians of elements, not projected yet, with d, which is
+    /// zero at all free coordinates.
     void add_product(const real_buffer& hessian, const device_vector& d, real_buffer& corner_gradients)
     {
         if (cells_.empty()) return;
@@ -124,7 +130,7 @@ public:
                 const auto H = hessian.read(h);
                 const auto along = d.data().read(h);
                 const auto g = corner_gradients.read_write(h);
-                h.parallel_for("fixed_product", cells_.size(),
+                h.parallel_for("held_product", cells_.size(),
                                [&](auto c)
                                {
                                    const auto cell = cells[c];
@@ -145,6 +151,122 @@ public:
 
 private:
     using slots = hessian_slots<D>;
+    static constexpr int pairs = D * (D + 1) / 2; ///< entries of a symmetric matrix
+
+    static constexpr std::size_t at(idx k) { return static_cast<std::size_t>(k); }
+    static constexpr int pair(int i, int j) { return i > j ? pair(j, i) : i * D - i * (i - 1) / 2 + (j - i); }
+
+    void fix(const layout<Element>& mesh_layout, const fixed_marks<D>& marks)
+    {
+        coordinates_.clear();
+        std::vector<idx> places, entries, cells, corners;
+        for (std::size_t v = 0; v < marks.size(); ++v)
+        {
+            if (!marks.any(v)) continue;
+            const idx here = mesh_layout.order.vertices.old_to_new[v];
+            const auto around = mesh_layout.vertex_corners.row(here);
+            for (const idx corner : around) cells.push_back(corner / Element::corners);
+            for (int i = 0; i < D; ++i)
+            {
+                if (!marks.test(v, i)) continue;
+                coordinates_.push_back({v, i});
+                places.push_back(here + i * vertex_stride_);
+                for (const idx corner : around)
+                    for (int l = 0; l < Element::corners; ++l)
+                        for (int j = 0; j < D; ++j)
+                            entries.push_back(corner / idx(Element::corners) +
+                                              slots::at(corner % Element::corners, i, l, j) * cell_stride_);
+            }
+        }
+        places_ = buffer_of(places);
+        entries_ = buffer_of(distinct(std::move(entries)));
+        cells = distinct(std::move(cells));
+        cells_ = buffer_of(cells);
+        for (std::size_t k = 0; k < Element::corners; ++k)
+            for (const idx c : cells) corners.push_back(mesh_layout.corners[k * mesh_layout.cell_stride + at(c)]);
+        corners_ = buffer_of(corners);
+    }
+
+    void slide(const layout<Element>& mesh_layout, std::span<const taut::slide<D>> slides)
+    {
+        std::vector<idx> vertices, cells, number(at(mesh_layout.vertex_count), -1);
+        std::vector<double> projections(slides.size() * pairs);
+        for (std::size_t n = 0; n < slides.size(); ++n)
+        {
+            const idx here = mesh_layout.order.vertices.old_to_new[at(slides[n].vertex)];
+            number[at(here)] = static_cast<idx>(n);
+            vertices.push_back(here);
+            store(slides[n].projection, projections, n, slides.size());
+            for (const idx corner : mesh_layout.vertex_corners.row(here)) cells.push_back(corner / Element::corners);
+        }
+        cells = distinct(std::move(cells));
+        std::vector<double> of_corners(Element::corners * pairs * cells.size());
+        for (std::size_t k = 0; k < Element::corners; ++k)
+            for (std::size_t c = 0; c < cells.size(); ++c)
+            {
+                const idx n = number[at(mesh_layout.corners[k * mesh_layout.cell_stride + at(cells[c])])];
+                store(n < 0 ? glm::mat<D, D, double>(1.0) : slides[at(n)].projection, of_corners,
+                      k * pairs * cells.size() + c, cells.size());
+            }
+        sliding_ = buffer_of(vertices);
+        sliding_cells_ = buffer_of(cells);
+        if (slides.empty()) return;
+        projections_ = real_buffer(queue_, types_.vector, projections);
+        corner_projections_ = real_buffer(queue_, types_.vector, of_corners);
+    }
+
+    void slide_hessian(real_buffer& hessian)
+    {
+        queue_.submit(
+            [&](handler& h)
+            {
+                const auto cells = sliding_cells_.read(h);
+                const auto P = corner_projections_.read(h);
+                const auto H = hessian.read_write(h);
+                const auto n = h.uniform(static_cast<idx>(sliding_cells_.size())), stride = h.uniform(cell_stride_);
+                h.parallel_for("slide_hessian", sliding_cells_.size(),
+                               [&](auto c)
+                               {
+                                   const auto cell = cells[c];
+                                   const auto projection = [&](int k, int i, int j)
+                                   { return P[c + (k * pairs + pair(i, j)) * n]; };
+                                   for (int k = 0; k < Element::corners; ++k)
+                                       for (int l = k; l < Element::corners; ++l)
+                                       {
+                                           std::array<std::array<sym<double>, D>, D> HP;
+                                           for (int i = 0; i < D; ++i)
+                                               for (int j = 0; j < D; ++j)
+                                               {
+                                                   sym<double> sum = 0.0;
+                                                   for (int m = 0; m < D; ++m)
+                                                       sum = sum + H[cell + slots::at(k, i, l, m) * stride] *
+                                                                       projection(l, m, j);
+                                                   HP[at(i)][at(j)] = sum;
+                                               }
+                                           sym<double> mean = 0.0;
+                                           if (k == l)
+                                               for (int i = 0; i < D; ++i)
+                                                   mean = mean + H[cell + slots::at(k, i, k, i) * stride] / double(D);
+                                           for (int i = 0; i < D; ++i)
+                                               for (int j = k == l ? i : 0; j < D; ++j)
+                                               {
+                                                   sym<double> sum = 0.0;
+                                                   for (int m = 0; m < D; ++m)
+                                                       sum = sum + projection(k, i, m) * HP[at(m)][at(j)];
+                                                   if (k == l)
+                                                       sum = sum + mean * (double(i == j) - projection(k, i, j));
+                                                   H[cell + slots::at(k, i, l, j) * stride] = sum;
+                                               }
+                                       }
+                               });
+            });
+    }
+
+    static void store(const glm::mat<D, D, double>& P, std::vector<double>& to, std::size_t first, std::size_t stride)
+    {
+        for (int i = 0; i < D; ++i)
+            for (int j = i; j < D; ++j) to[first + at(pair(i, j)) * stride] = P[j][i];
+    }
 
     static std::vector<idx> distinct(std::vector<idx> numbers)
     {
@@ -173,7 +295,7 @@ private:
     template <class Prepare>
     void over_places(const char* name, const Prepare& prepare)
     {
-        if (empty()) return;
+        if (places_.empty()) return;
         queue_.submit(
             [&](handler& h)
             {
@@ -186,11 +308,13 @@ private:
     queue queue_;
     real_types types_;
     idx cell_stride_, vertex_stride_;
-    std::vector<std::pair<std::size_t, int>> vertices_; ///< vertex and coordinate of each place, the user's numbers
-    buffer<idx> places_;                                ///< fixed coordinates in vectors
-    buffer<idx> entries_;                               ///< entries of element Hessians
-    buffer<idx> cells_, corners_;                       ///< elements at fixed vertices, and their vertices
-    real_buffer targets_;                               ///< by place
+    std::vector<std::pair<std::size_t, int>> coordinates_; ///< vertex and coordinate of each place, the user's numbers
+    buffer<idx> places_;                                   ///< fixed coordinates in vectors
+    buffer<idx> entries_;                                  ///< entries of element Hessians
+    buffer<idx> cells_, corners_;                          ///< elements at fixed vertices, and their vertices
+    real_buffer targets_;                                  ///< by place
+    buffer<idx> sliding_, sliding_cells_;                  ///< sliding vertices, and the elements at them
+    real_buffer projections_, corner_projections_;         ///< of these
 };
 
 } // namespace taut::impl

@@ -19,7 +19,6 @@
 #include <taut/impl/objective/element_arrays.hpp>
 #include <taut/impl/objective/element_kernels.hpp>
 #include <taut/impl/objective/fixed_terms.hpp>
-#include <taut/impl/objective/sliding_terms.hpp>
 #include <taut/impl/objective/spring_terms.hpp>
 #include <taut/impl/solve/objective.hpp>
 
@@ -68,13 +67,11 @@ public:
           corner_gradients_(queue_, types.position, (D + 1) * D * layout_->cell_stride),
           gather_(make_gather()),
           springs_(queue_, types, *layout_, constraints.springs),
-          held_(queue_, types, *layout_),
-          sliding_(queue_, types, *layout_),
+          fixed_(queue_, types, *layout_),
           gradient_scale_(characteristic_gradient(*layout_, energy, weights)),
           value_scale_(characteristic_value<D>(energy))
     {
-        held_.hold(*layout_, constraints.held);
-        sliding_.slide(*layout_, constraints.slides);
+        fixed_.fix(*layout_, constraints.held, constraints.slides);
     }
 
     const device_vectors& space() const { return space_; }
@@ -98,15 +95,18 @@ public:
     void constrain(const point_constraints<D>& c)
     {
         springs_.set_springs(*layout_, c.springs);
-        held_.hold(*layout_, c.held);
-        sliding_.slide(*layout_, c.slides);
+        fixed_.fix(*layout_, c.held, c.slides);
     }
 
     /// Sets the targets of fixed coordinates other than those of pinned vertices, for linearize_towards() and put():
-    /// those of a map in the user's numbers and units; no others are read.
-    void aim(std::span<const vec<D>> map) { held_.aim(*layout_, map); }
+    /// target(v) is that of vertex v, in the user's numbers and units.
+    template <class Target>
+    void aim(const Target& target)
+    {
+        fixed_.aim(*layout_, target);
+    }
     /// Sets x to the targets at fixed coordinates, to the last bit of the type of positions.
-    void put(point& x) { held_.put(x); }
+    void put(point& x) { fixed_.put(x); }
 
     double value(const point& x)
     {
@@ -137,7 +137,7 @@ public:
     {
         element_gradients(x);
         gather_(corner_gradients_, g.data());
-        mask(g);
+        fixed_.project(g);
     }
 
     /// Values f(x + a[i] d), four step lengths per launch, one wait in all.
@@ -240,10 +240,10 @@ protected:
         const auto sum = enqueue_sum();
         gather_(corner_gradients_, g.data());
         const auto before = reductions_.dot(g.data(), d.data(), space_.size());
-        held_.add_product(hessian, d, corner_gradients_);
+        fixed_.add_product(hessian, d, corner_gradients_);
         gather_(corner_gradients_, g.data());
         const auto after = reductions_.dot(g.data(), d.data(), space_.size());
-        mask(g);
+        fixed_.project(g);
         reductions_.fetch();
         return {reductions_.value(sum), (reductions_.value(before) + reductions_.value(after)) / 2};
     }
@@ -253,20 +253,7 @@ protected:
     std::shared_ptr<const element_arrays<Element>> arrays() const { return arrays_; }
 
     spring_terms<Element>& springs() { return springs_; }
-    fixed_terms<Element>& held() { return held_; }
-
-    /// Projects v to the admissible displacements.
-    void mask(vector& v)
-    {
-        held_.mask(v);
-        sliding_.project(v);
-    }
-    /// Projects the Hessians of elements.
-    void mask_hessian(real_buffer& hessian)
-    {
-        sliding_.project_hessian(hessian);
-        held_.mask_hessian(hessian);
-    }
+    fixed_terms<Element>& fixed() { return fixed_; }
 
 private:
     /// Gathers rows of free vertices only: the others get zero.
@@ -373,8 +360,7 @@ private:
     real_buffer corner_gradients_;
     gather gather_;
     spring_terms<Element> springs_;
-    fixed_terms<Element> held_;
-    sliding_terms<Element> sliding_;
+    fixed_terms<Element> fixed_;
     double gradient_scale_, value_scale_;
 };
 

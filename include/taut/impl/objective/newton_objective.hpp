@@ -135,7 +135,7 @@ public:
         if (!exact) return;
         if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
         element_hessians(x, definiteness::indefinite);
-        this->mask_hessian(hessian_);
+        this->fixed().project_hessian(hessian_);
         assemble_(hessian_, *indefinite_);
     }
 
@@ -145,7 +145,7 @@ public:
     solve::impl::model_change linearize_towards(const point& x, double share, vector& d, vector& g)
     {
         d.data().fill(0);
-        this->held().gap(x, share, d);
+        this->fixed().gap(x, share, d);
         this->element_gradients(x);
         element_hessians(x, stand_in_);
         const auto change = this->move_held(hessian_, d, g);
@@ -159,7 +159,7 @@ public:
     void precondition(const vector& v, vector& out)
     {
         cycle_.apply(v, out);
-        this->mask(out);
+        this->fixed().project(out);
     }
 
     /// Preconditioner with its matrices, for measurements.
@@ -192,7 +192,7 @@ private:
     /// The matrices of all levels, of the element Hessians without fixed coordinates.
     void assemble()
     {
-        this->mask_hessian(hessian_);
+        this->fixed().project_hessian(hessian_);
         assemble_(hessian_, cycle_.matrix());
         cycle_.refresh();
     }

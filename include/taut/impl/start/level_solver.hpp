@@ -74,12 +74,6 @@ public:
 
         std::vector<vec<D>> download() const { return objective_.download(x_); }
 
-        /// Replaces the map of the level.
-        void move_to(const std::vector<vec<D>>& x) { objective_.upload(x, x_); }
-
-        /// Replaces the constraints, in the numbering of the level.
-        void constrain(const point_constraints<D>& constraints) { objective_.constrain(constraints); }
-
         /// Changes the targets or stiffnesses of the same springs.
         void set_springs(std::span<const directed_spring<D>> springs) { objective_.set_springs(springs); }
 

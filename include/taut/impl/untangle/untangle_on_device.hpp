@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include <taut/impl/untangle/device/lead_stage.hpp>
+#include <taut/impl/untangle/device/loading_stage.hpp>
 #include <taut/impl/untangle/device/multigrid_newton.hpp>
 #include <taut/impl/untangle/device/operator_stage.hpp>
 #include <taut/impl/untangle/untangle_host.hpp>
@@ -57,7 +57,7 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
         stages.push_back(std::move(on_device));
         stages.push_back(std::make_unique<impl::proof_stage>());
         stages.push_back(std::make_unique<impl::newton_stage<Element>>());
-        stages.push_back(std::make_unique<impl::lead_stage<Element>>(q));
+        stages.push_back(std::make_unique<impl::loading_stage<Element>>(q));
         if (!problem.outline_pinned()) std::swap(stages[3], stages[4]);
         return untangle(problem, std::move(stages), std::move(newton), params);
     }

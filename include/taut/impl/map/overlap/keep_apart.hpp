@@ -13,7 +13,8 @@
 #include <taut/impl/map/overlap/scaffolded_map.hpp>
 #include <taut/impl/map/overlap/start_apart.hpp>
 #include <taut/impl/map/run_result.hpp>
-#include <taut/impl/map/session/shape_session.hpp>
+#include <taut/impl/map/session/session_run.hpp>
+#include <taut/impl/map/session/shape_setup.hpp>
 
 namespace taut::impl
 {
@@ -67,7 +68,7 @@ private:
         session_result<triangle> moved;
         try
         {
-            moved = shape_session<triangle>(run_.queue, plane, how).solve({});
+            moved = session_run<triangle>(run_.queue, shape_setup(plane, how)).solve({});
         }
         catch (const mesh_error&)
         {
@@ -130,8 +131,8 @@ private:
 };
 
 /// End vertices of two crossing boundary edges whose vertices are all fixed; none if there are none.
-inline std::vector<idx> held_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
-                                    const std::vector<vec2>& x)
+inline std::vector<idx> fixed_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
+                                     const std::vector<vec2>& x)
 {
     const auto& marks = run.held.marks();
     std::vector<idx> ends;
@@ -161,7 +162,7 @@ inline map_result kept_apart(const map_run& run, map_result r)
     r.report.seconds = run.clock.seconds;
     if (told.before.pairs == 0) return r;
     told.energy_before = r.report.solve.value;
-    if (auto ends = held_across(run, loops, r.uv); !ends.empty())
+    if (auto ends = fixed_across(run, loops, r.uv); !ends.empty())
         return refused(std::move(r), {outcome::infeasible,
                                       "edges " + std::to_string(ends[0]) + '-' + std::to_string(ends[1]) + " and " +
                                           std::to_string(ends[2]) + '-' + std::to_string(ends[3]) +

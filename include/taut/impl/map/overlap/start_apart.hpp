@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <taut/impl/exact/crossings.hpp>
-#include <taut/impl/map/given_map.hpp>
 #include <taut/impl/map/map_run.hpp>
+#include <taut/impl/map/starts.hpp>
 #include <taut/impl/start/robust.hpp>
 
 namespace taut::impl

@@ -1,8 +1,71 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+#include <utility>
+
 #include <taut/impl/map/session.hpp>
 
-#include <taut/impl/map/session/map_session.hpp>
+#include <taut/impl/map/mapped.hpp>
+#include <taut/impl/map/session/session_run.hpp>
 
-template taut::session<taut::triangle>::session(queue&, const mesh<triangle>&, const parameterize_params&);
+namespace taut::impl
+{
+
+/// Sets up the session of a map of a surface, with the start of parameterize(). Throws as that.
+inline session_setup<triangle> map_setup(const queue& q, const mesh<triangle>& m, const parameterize_params& given)
+{
+    struct
+    {
+        parameterize_params params;
+        run_surface in;
+    } both{validated(given), {m, given}};
+    const auto& [params, in] = both;
+    session_setup<triangle> setup{.of = {.rest = in.surface,
+                                         .ideal = in.ideal,
+                                         .energy = params.energy,
+                                         .weights = params.weights,
+                                         .data = params.data},
+                                  .constraints = params.constraints,
+                                  .still = in.fixed_boundary(params.boundary),
+                                  .precision = params.precision,
+                                  .solve = params.solve,
+                                  .untangling = params.untangling,
+                                  .limits = params.limits};
+    setup.first = [q, both = std::move(both)](const constraints<triangle>& wanted, run_clock& clock)
+    {
+        auto params = both.params;
+        params.constraints = wanted;
+        map_result found = mapped(q, both.in, params, clock);
+        first_map<triangle> first{{}, found.report.precision, both.in.unit / found.report.scale};
+        session_report& r = first.result.report;
+        r.outcome = found.report.outcome;
+        r.reason = std::move(found.report.reason);
+        r.ids = std::move(found.report.ids);
+        r.notes = std::move(found.report.notes);
+        r.flips = std::move(found.report.flips);
+        r.energy = found.report.solve.value;
+        r.gradient = found.report.solve.gradient_norm;
+        r.steps = found.report.solve.iterations;
+        r.converged = found && solve::impl::converged(found.report.solve.stop);
+        if (found) first.result.x = std::move(found.uv);
+        return first;
+    };
+    return setup;
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+template <class Element>
+session<Element>::session(queue& q, const mesh<Element>& m,
+                          const parameterize_params& params) requires std::same_as<Element, triangle>
+    : body_(std::make_unique<impl::session_run<Element>>(q, impl::map_setup(q, m, params)))
+{
+}
+
+template session<triangle>::session(queue&, const mesh<triangle>&, const parameterize_params&);
+
+} // namespace taut

@@ -1,12 +1,41 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
+
 #include <taut/impl/map/session.hpp>
 
-#include <taut/impl/map/session/open_shape.hpp>
-#include <taut/impl/map/session/shell_session.hpp>
+#include <taut/impl/map/session/session_run.hpp>
+#include <taut/impl/map/session/shape_setup.hpp>
 #include <taut/impl/untangle/untangle.hpp>
 
-template taut::session<taut::tetrahedron>::session(queue&, const mesh<tetrahedron>&, const deform_params<tetrahedron>&);
-template taut::session<taut::triangle>::session(queue&, const mesh<triangle>&, const deform_params<triangle>&);
-template taut::session<taut::hinge>::session(queue&, const thin_shell&, const shell_params&);
+namespace taut
+{
+
+template <class Element>
+session<Element>::session(queue& q, const mesh<Element>& m,
+                          const deform_params<Element>& params) requires std::same_as<Element, tetrahedron>
+    : body_(std::make_unique<impl::session_run<Element>>(q, impl::shape_setup(m, params)))
+{
+}
+
+template <class Element>
+template <std::same_as<deform_params<Element>> Params>
+session<Element>::session(queue& q, const mesh<Element>& m,
+                          const Params& params) requires std::same_as<Element, triangle>
+    : body_(std::make_unique<impl::session_run<Element>>(q, impl::shape_setup(m, params)))
+{
+}
+
+template <class Element>
+session<Element>::session(queue& q, const thin_shell& shell,
+                          const shell_params& params) requires std::same_as<Element, hinge>
+    : body_(std::make_unique<impl::session_run<Element>>(q, impl::shell_setup(shell, params)))
+{
+}
+
+template session<tetrahedron>::session(queue&, const mesh<tetrahedron>&, const deform_params<tetrahedron>&);
+template session<triangle>::session(queue&, const mesh<triangle>&, const deform_params<triangle>&);
+template session<hinge>::session(queue&, const thin_shell&, const shell_params&);
+
+} // namespace taut

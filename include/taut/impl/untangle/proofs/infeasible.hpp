@@ -11,7 +11,7 @@
 #include <taut/impl/exact/branch_points.hpp>
 #include <taut/impl/mesh/incidence.hpp>
 #include <taut/impl/untangle/proofs/empty_star.hpp>
-#include <taut/impl/untangle/proofs/held_elements.hpp>
+#include <taut/impl/untangle/proofs/fixed_elements.hpp>
 #include <taut/impl/untangle/proofs/outline_proofs.hpp>
 #include <taut/impl/untangle/proofs/pinned_boundary.hpp>
 

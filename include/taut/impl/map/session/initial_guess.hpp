@@ -11,13 +11,12 @@
 #include <taut/impl/constrain/untangle_problem.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/exact/certify.hpp>
-#include <taut/impl/map/deform_params.hpp>
 #include <taut/impl/map/gradient_fit.hpp>
-#include <taut/impl/map/session/coarse_draft.hpp>
+#include <taut/impl/map/session/coarse_guess.hpp>
 #include <taut/impl/map/shape_path.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/mesh/incidence.hpp>
-#include <taut/impl/untangle/device/live_map.hpp>
+#include <taut/impl/objective/running_map.hpp>
 #include <taut/impl/untangle/local_problem.hpp>
 #include <taut/impl/untangle/untangle_declared.hpp>
 
@@ -29,9 +28,9 @@ namespace taut::impl
 /// elements (Zayer et al. 2005, "Harmonic guidance for surface deformation"). Elements may be inverted, where turns
 /// change fast.
 /// from: the current shape, no element inverted; to: the targets, of which fixed coordinates are read.
-inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
-                                      const prescribed_paths<3>& paths, const fixed_marks<3>& marks,
-                                      const std::vector<vec3>& from, const std::vector<vec3>& to)
+inline std::vector<vec3> harmonic_guess(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
+                                        const prescribed_paths<3>& paths, const fixed_marks<3>& marks,
+                                        const std::vector<vec3>& from, const std::vector<vec3>& to)
 {
     std::vector<vec3> held, places;
     for (std::size_t v = 0; v < from.size(); ++v)
@@ -67,7 +66,7 @@ inline std::vector<vec3> turned_draft(const gradient_fit<tetrahedron>& poisson, 
 }
 
 /// Shape with fixed coordinates at their targets, and its report.
-struct mended_draft
+struct mended_guess
 {
     std::vector<vec3> x;                       ///< certified; empty: none was found
     int steps = 0;                             ///< of Newton's method on coarser volumes and on parts
@@ -109,12 +108,12 @@ inline std::vector<char> around_shrunk(const gradient_fit<tetrahedron>& poisson,
 }
 
 /// Initial guess of one problem, and what its levels share.
-class draft_maker
+class guess_maker
 {
 public:
     using problem = untangle_problem<tetrahedron>;
 
-    draft_maker(const queue& q, const untangle_params& how, precision arithmetic)
+    guess_maker(const queue& q, const untangle_params& how, precision arithmetic)
         : queue_(q), how_(how), clock_(how.limits.time_limit), arithmetic_(arithmetic)
     {
         how_.rounds = 1;
@@ -125,20 +124,20 @@ public:
     /// targets (`initial`), to which they move: that of a coarser volume, where there is one, or else harmonic
     /// guidance, where bodies of them rotate. Shrunk elements, with their neighbours, are untangled and minimised
     /// separately, with the current shape as rest shape: else such elements, though few, would cut the steps of all.
-    mended_draft draft(const problem& p) const
+    mended_guess make(const problem& p) const
     {
         const mesh<tetrahedron> here(p.draft, p.rest.cells());
         const gradient_fit<tetrahedron> poisson(here, p.draft);
-        mended_draft found = from_coarser(p, here, poisson);
+        mended_guess found = from_coarser(p, here, poisson);
         if (!found.x.empty() && mend(p, here, poisson, found)) return found;
         const prescribed_paths<3> paths(p.rest.cells(), p.held, p.draft, p.initial);
         if (paths.parts() == 1 || !clock_.in_time()) return without_shape(found);
-        found.x = turned_draft(poisson, here, paths, p.held, p.draft, p.initial);
+        found.x = harmonic_guess(poisson, here, paths, p.held, p.draft, p.initial);
         return mend(p, here, poisson, found) ? found : without_shape(found);
     }
 
 private:
-    static mended_draft without_shape(mended_draft found)
+    static mended_guess without_shape(mended_guess found)
     {
         found.x.clear();
         return found;
@@ -151,32 +150,32 @@ private:
 
     /// Prolongs the minimum on a coarser volume: the buckling direction of limbs is decided there, which takes many
     /// steps, whatever the size.
-    mended_draft from_coarser(const problem& p, const mesh<tetrahedron>& here,
+    mended_guess from_coarser(const problem& p, const mesh<tetrahedron>& here,
                               const gradient_fit<tetrahedron>& poisson) const
     {
         const auto smaller = coarser(p, clock_);
         if (!smaller) return {};
         const problem& small = smaller->problem;
-        mended_draft found = draft(small);
+        mended_guess found = make(small);
         if (found.x.empty() && clock_.in_time()) found.x = untangled(small, found);
         if (found.x.empty() || !clock_.in_time()) return without_shape(found);
         constexpr double nearly = 1e-6; // before that limbs may still buckle
         minimise(small, nearly, 60, found);
         found.vertices = 0;
-        found.x = carried_up(poisson, here, smaller->thinned, found.x, p.held, p.initial);
+        found.x = prolonged_guess(poisson, here, smaller->thinned, found.x, p.held, p.initial);
         return found;
     }
 
     /// Untangles and minimises shrunk elements; returns whether the shape is good then.
     bool mend(const problem& p, const mesh<tetrahedron>& here, const gradient_fit<tetrahedron>& poisson,
-              mended_draft& found) const
+              mended_guess& found) const
     {
         if (const auto inside = around_shrunk(poisson, here, found.x); !inside.empty())
         {
             const auto part = part_of<tetrahedron>({here, found.x, p.held, {}, {}, p.owners}, inside);
             if (!part) return false;
             found.vertices = part->vertices.size();
-            mended_draft mended;
+            mended_guess mended;
             mended.x = part->problem.initial;
             if (!certified(part->problem, mended.x)) mended.x = untangled(part->problem, found);
             if (mended.x.empty() || !clock_.in_time()) return false;
@@ -194,7 +193,7 @@ private:
     }
 
     /// Untangles to an injective map, or none.
-    std::vector<vec3> untangled(const problem& p, mended_draft& booked) const
+    std::vector<vec3> untangled(const problem& p, mended_guess& booked) const
     {
         auto how = how_;
         how.limits.time_limit = clock_.left();
@@ -204,14 +203,16 @@ private:
     }
 
     /// Minimises the shape to a relative gradient, with a maximum number of steps.
-    void minimise(const problem& p, double gradient, int steps, mended_draft& found) const
+    void minimise(const problem& p, double gradient, int steps, mended_guess& found) const
     {
-        live_map<tetrahedron> live(queue_, p.rest, deform_params<tetrahedron>{}, arithmetic_, found.x);
-        live.constrain(p.held, {}, {});
+        const mapped_mesh<tetrahedron> of{.rest = p.rest};
+        running_map<tetrahedron> running(queue_, of);
+        running.fixed = {p.held, p.initial};
+        running.load(found.x, arithmetic_);
         const solve::impl::stopping_params enough{
             .gradient_tolerance = gradient, .max_iterations = steps, .time_limit = clock_.left()};
-        found.steps += live.minimize({.stopping = enough}, how_.limits.observer).iterations;
-        found.x = live.coordinates();
+        found.steps += running.minimise({.stopping = enough}, how_.limits.observer).iterations;
+        found.x = running.coordinates();
     }
 
     queue queue_;

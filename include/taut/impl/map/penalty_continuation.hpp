@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <taut/impl/core/made_ahead.hpp>
-#include <taut/impl/map/attempt_on_levels.hpp>
+#include <taut/impl/map/attempt.hpp>
 #include <taut/impl/untangle/untangle_host.hpp>
 
 namespace taut::impl
@@ -20,26 +20,19 @@ namespace taut::impl
 /// flip. A boundary that is pinned as a whole is fixed from the beginning, and only inner pins get springs. The energy
 /// is a barrier, so all maps on the way are injective, and what is around a pin is dragged along, which ends in better
 /// minima than untangling does.
-class drawn_start
+class penalty_continuation
 {
 public:
-    enum class from
-    {
-        constraints, ///< levels of the penalty continuation, within the outline if that is pinned as a whole
-        free_map     ///< the map of a run that nothing holds, moved near to the pins: where these are of such a map
-    };
-
     /// run: one with a penalty continuation; referred to.
-    explicit drawn_start(const map_run& run, from where = from::constraints)
+    explicit penalty_continuation(const map_run& run)
         : run_(run),
-          free_(where == from::free_map),
-          bound_(!free_ && run.held.outline_pinned(run.in.surface, run.in.sides)),
+          bound_(run.outline_pinned()),
           anchored_(anchors()),
           places_(anchored_.size(), vec2(0)),
           centre_(run.held.centre()),
           levels_(run.in.surface, bound_ ? anchored_ : std::vector<bool>(),
                   {.proceed = [&run] { return run.clock.proceed(); }}, run.params.data,
-                  free_ ? std::vector<bool>() : run.held.touched(anchored_.size())),
+                  run.held.touched(anchored_.size())),
           pull_(run.held.pull(anchored_))
     {
         run.held.impose(places_, run.in.unit);
@@ -47,28 +40,21 @@ public:
         run.clock.stages.add({.stage = "hierarchy", .vertices = run.vertices()});
     }
 
-    /// Computes the start; `useless` where there is none, with the free map as its map if that is near to the pins.
+    /// Computes the start; `useless` where there is none.
     run_start make()
     {
         run_start start;
         start.useless = true;
         if (find_infeasibility(run_.held.problem(run_.in.surface, places_))) return start; // as untangling will say
         nested_params descent = descent_of(run_);
-        std::size_t first = descent.first_level(levels_);
-        start_map map;
-        if (!free_)
-        {
-            if (levels_.vertices(first) > most_vertices) return start;
-            map = first_map(first);
-            // What cannot be untangled there often can on a finer level, if that is small enough for it.
-            if (bound_ && !map.flips && first > 1 && levels_.vertices(first - 1) <= most_untangled)
-                map = first_map(--first);
-            run_.clock.spent(&map_seconds::start);
-            if (!map.flips) return start;
-            descent.start_vertices = levels_.vertices(first);
-            descent.first_map = [&map](std::size_t) { return std::move(map); };
-            descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
-        }
+        const std::size_t first = descent.first_level(levels_);
+        if (levels_.vertices(first) > most_vertices) return start;
+        start_map map = first_map(first);
+        run_.clock.spent(&map_seconds::start);
+        if (!map.flips) return start;
+        descent.start_vertices = levels_.vertices(first);
+        descent.first_map = [&map](std::size_t) { return std::move(map); };
+        descent.springs = [this](std::size_t l) { return springs(l, first_stiffness(l)); };
         using plan = typename level_solver<triangle>::plan;
         const auto form = lane_form::for_device(run_.queue.device());
         made_ahead<plan> plans(first + 1, [&](std::size_t k) { return plan(levels_, first - k, form); });
@@ -95,12 +81,10 @@ public:
         }
         if (!arrival.empty())
         {
-            point_constraints<2> slack;
-            if (!free_) slack.springs = springs(0, first_stiffness(0));
-            level finest(*solver, take(0), arrival, slack);
+            level finest(*solver, take(0), arrival, {.held = {}, .springs = springs(0, first_stiffness(0))});
             finest.relax();
             run_.clock.stages.add({.stage = "prepare", .vertices = run_.vertices()});
-            if (!free_ || brought_near(finest)) draw(finest, start);
+            draw(finest, start);
         }
         start.stopped = !run_.clock.proceed();
         return start;
@@ -160,25 +144,6 @@ private:
         return map;
     }
 
-    /// Minimises an unconstrained map, and moves it near to the pins; returns whether a similarity does so.
-    bool brought_near(level& finest)
-    {
-        auto how = limited(run_, run_.params.solve.stopping.max_iterations);
-        how.stopping.gradient_tolerance = std::max(roughly, how.stopping.gradient_tolerance);
-        auto r = finest.minimize(how, observer_on(run_.clock, 1));
-        for (int& c : r.capping) c = levels_.order().cells.new_to_old[static_cast<std::size_t>(c)];
-        run_.clock.stages.add(minimised_on_mesh(run_, r));
-        run_.clock.spent(&map_seconds::start);
-        origins_ = levels_.order().vertices.undo(finest.download());
-        run_.held.bring_near(origins_);
-        if (!run_.clock.proceed() || run_.held.misfit(origins_) > near) return false;
-        const auto map = centred(origins_, centre_);
-        reach_ = bounding_square(map).size / 2;
-        finest.move_to(levels_.order().vertices.apply(map));
-        finest.constrain({.held = {}, .springs = springs(0, first_stiffness(0))});
-        return true;
-    }
-
     std::vector<vec2> within_outline(const mesh<triangle>& surface, const std::vector<idx>& there) const
     {
         const std::size_t n = surface.points().size();
@@ -227,11 +192,7 @@ private:
         run_.clock.stages.add(did);
         const double before = run_.clock.seconds.untangle;
         run_.clock.spent(&map_seconds::untangle);
-        if (start.useless)
-        {
-            if (free_) start.map.uv = origins_;
-            return;
-        }
+        if (start.useless) return;
         start.map.assess(run_.in.surface, run_.in.ideal);
         start.pin_origins = run_.held.pinned_points(origins_);
         start.centre = bounding_square(start.map.uv).centre;
@@ -241,16 +202,12 @@ private:
     }
 
     static constexpr std::size_t most_vertices = 12000; // of the first map, which is made on the host
-    static constexpr std::size_t most_untangled = 6000; // the same where that takes more than a harmonic map
     static constexpr double growth = 4;
     static constexpr double followed = 0.25; // a step that is no shorter
     static constexpr int most_strides = 24;
     static constexpr int most_steps = 40;
-    static constexpr double roughly = 1e-3; // the gradient of a map that will be moved
-    static constexpr double near = 0.25;    // of surface_constraints::misfit()
 
     const map_run& run_;
-    bool free_;
     bool bound_; ///< all of the boundary is pinned
     std::vector<bool> anchored_;
     std::vector<vec2> places_; ///< targets of fixed vertices

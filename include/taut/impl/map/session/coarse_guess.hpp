@@ -74,9 +74,9 @@ inline std::vector<mat3> vertex_gradients(const mesh<tetrahedron>& m, const std:
 /// Prolongs x, a shape of the coarser volume, to the mesh m: gradients are those of the coarser one at its vertices,
 /// smooth in between, and the shape is the one whose gradients are nearest to them. Fixed coordinates have the targets
 /// `to`.
-inline std::vector<vec3> carried_up(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
-                                    const coarser_volume& coarse, const std::vector<vec3>& x,
-                                    const fixed_marks<3>& held, const std::vector<vec3>& to)
+inline std::vector<vec3> prolonged_guess(const gradient_fit<tetrahedron>& poisson, const mesh<tetrahedron>& m,
+                                         const coarser_volume& coarse, const std::vector<vec3>& x,
+                                         const fixed_marks<3>& held, const std::vector<vec3>& to)
 {
     const auto at = [](idx v) { return static_cast<std::size_t>(v); };
     const auto gradients = vertex_gradients(coarse.volume, x);

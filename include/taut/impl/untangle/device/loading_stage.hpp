@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <limits>
-#include <memory>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -14,7 +10,7 @@
 #include <taut/impl/constrain/prescribed_paths.hpp>
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
-#include <taut/impl/untangle/device/live_map.hpp>
+#include <taut/impl/objective/running_map.hpp>
 #include <taut/impl/untangle/stage.hpp>
 
 namespace taut::impl
@@ -24,13 +20,13 @@ namespace taut::impl
 /// to their targets by Newton's steps with prescribed displacements: elements stay positive on the way. For handles of
 /// a body whose surface is free; it gives up where steps stick.
 template <class Element>
-class lead_stage final : public untangle_stage<Element>
+class loading_stage final : public untangle_stage<Element>
 {
     static constexpr int D = Element::dimension;
     using map = std::vector<vec<D>>;
 
 public:
-    explicit lead_stage(queue q) : queue_(std::move(q)) {}
+    explicit loading_stage(queue q) : queue_(std::move(q)) {}
 
     std::string_view name() const override { return "lead"; }
 
@@ -40,27 +36,23 @@ public:
         map x = start(problem);
         if (!certify<D>(state.cells(), std::span<const vec<D>>(x), {}, 0, problem.owners))
             return false; // there is no such shape
-        struct
-        {
-            any_energy energy = energy::isometric{};
-            energy::weighting weights = energy::weighting::measure;
-            cell_data data = {};
-        } const params;
-        const precision how = queue_.device().has_fp64() ? precision::mixed : precision::fp32;
-        impl::live_map<Element> live(queue_, problem.rest, params, how, x);
-        live.constrain(problem.held, {}, {});
+        const mapped_mesh<Element> of{.rest = problem.rest, .energy = energy::isometric{}};
+        running_map<Element> running(queue_, of);
+        running.fixed = {problem.held, problem.initial};
+        running.load(x, queue_.device().has_fp64() ? precision::mixed : precision::fp32);
 
         const prescribed_paths<D> paths(problem.rest.cells(), problem.held, x, problem.initial);
-        for (int part = 1; part <= paths.parts(); ++part)
+        const int parts = paths.parts();
+        for (int part = 1; part <= parts; ++part)
         {
             if (!state.proceed(0)) return false;
-            map way = problem.initial;
-            paths.place(static_cast<double>(part) / paths.parts(), way);
-            live.aim(way);
-            if (const double gap = largest_gap(problem.held, x, way); gap > 0)
-                if (!live.follow(gap, [&](const auto&) { return state.proceed(); }).arrived) return false;
-            x = live.coordinates();
+            const auto way = [&](std::size_t v) { return paths.place(v, double(part) / parts); };
+            running.aim(way);
+            const map now = part == 1 ? x : running.coordinates();
+            if (const double gap = running.fixed.gap(now, way).distance; gap > 0)
+                if (!running.follow(gap, [&](const auto&) { return state.proceed(); }).arrived) return false;
         }
+        x = running.coordinates();
         state.take(x);
         return false;
     }
@@ -77,15 +69,6 @@ private:
         const auto motion = fit_rigid_motion(std::span<const vec<D>>(from), std::span<const vec<D>>(to));
         for (auto& p : x) p = motion(p);
         return x;
-    }
-
-    static double largest_gap(const fixed_marks<D>& marks, const map& x, const map& way)
-    {
-        double most = 0;
-        for (std::size_t v = 0; v < x.size(); ++v)
-            for (int k = 0; k < D; ++k)
-                if (marks.test(v, k)) most = std::max(most, std::abs(way[v][k] - x[v][k]));
-        return most;
     }
 
     queue queue_;

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <numeric>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/map/penalty_continuation.hpp>
+#include <taut/impl/measure/planar_size.hpp>
+#include <taut/impl/start/conformal.hpp>
+#include <taut/impl/untangle/untangle_declared.hpp>
+
+namespace taut::impl
+{
+
+/// Makes a map of m of the user's coordinates: scaled to the surface's size where the boundary is free and nothing is
+/// constrained, reflected where they are mirrored as a whole. unit: from the user's lengths to those of m. Throws
+/// parameter_error for a wrong number.
+inline start_map given_map(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
+                           const parameterize_params& params, double unit, std::vector<std::string>& notes)
+{
+    if (params.initial.size() != m.points().size())
+        throw parameter_error("initial", std::to_string(params.initial.size()) + " coordinates for " +
+                                             std::to_string(m.points().size()) + " vertices");
+    start_map start;
+    start.uv = params.initial;
+    if (params.boundary == boundary_mode::free && params.constraints.empty())
+        bring_to_size(start.uv, std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0));
+    else
+        for (vec2& p : start.uv) p *= unit;
+    start.assess(m, ideal);
+    if (start.flips.flipped == start.flips.elements && start.flips.max_det < 0)
+    {
+        for (vec2& p : start.uv) p.x = -p.x;
+        start.assess(m, ideal);
+        notes.push_back("the start was mirrored as a whole; u was negated");
+    }
+    return start;
+}
+
+/// Untangles a start with flips, or says why that failed. draft: initial guess, the start before pinned vertices were
+/// moved to their targets, or none.
+inline run_start untangled_start(const map_run& run, run_start start, std::vector<vec2> draft)
+{
+    const bool bound = run.held.constrained() || run.params.boundary == boundary_mode::fixed;
+    run.clock.has_result(bound); // the best map, even with defects
+    auto how = run.params.untangling;
+    how.limits.time_limit = run.clock.left();
+    how.limits.observer = [&run](const progress&) { return run.clock.ask({.iterate = false}); };
+    auto problem = run.held.problem(run.in.surface, start.map.uv);
+    if (!draft.empty() && certify<2>(run.in.surface.cells(), draft)) problem.draft = std::move(draft);
+    auto found = untangle(run.queue, problem, how);
+
+    run.clock.stages.append(found.stages);
+    start.untangling = std::move(found.stages);
+    const std::string before = "the start had " + describe_defects<triangle>(start.map.flips) + "; ";
+    if (!bound && !found)
+    {
+        start.notes.push_back(before + "another start was made");
+        start.useless = true;
+        return start;
+    }
+    start.notes.push_back(before + (found ? "it was untangled" : "untangling failed"));
+    start.map.uv = std::move(found.map);
+    start.map.assess(run.in.surface, run.in.ideal);
+    if (!found)
+    {
+        const bool proved = found.outcome == untangle_outcome::infeasible;
+        start.refused = {proved ? outcome::infeasible : outcome::gave_up, std::move(found.reason),
+                         std::move(found.ids)};
+    }
+    else if (!start.map.flips)
+        start.refused = refuse(outcome::no_valid_start, "the start map", start.map.flips);
+    return start;
+}
+
+/// Computes an injective start on the finest level that satisfies the constraints, or says why there is none. start:
+/// its map is any. given: it is made of the user's coordinates.
+inline run_start fitted_start(const map_run& run, run_start start, bool given)
+{
+    auto& uv = start.map.uv;
+    std::vector<vec2> draft;
+    if (run.held.constrained())
+    {
+        run.held.bring_near(uv);
+        start.pin_origins = run.held.pinned_points(uv);
+        draft = uv;
+        run.held.impose(uv, run.in.unit);
+        start.map.assess(run.in.surface, run.in.ideal);
+    }
+    run.clock.spent(&map_seconds::start);
+    run.clock.stages.add({.stage = "start", .vertices = run.vertices()});
+    if (!start.map.flips)
+    {
+        if (run.held.constrained() || given)
+        {
+            start = untangled_start(run, std::move(start), std::move(draft));
+            run.clock.spent(&map_seconds::untangle);
+        }
+        else
+            start.refused = refuse(outcome::no_valid_start, "the start map", start.map.flips);
+        if (!start.ready()) return start;
+    }
+    if (run.held.constrained() || given) start.centre = bounding_square(uv).centre;
+    run.clock.has_result(true);
+    start.stopped = !run.clock.proceed();
+    return start;
+}
+
+/// Computes the map of a run without the constraints; none if that has no valid one. Defined in mapped.hpp.
+inline std::vector<vec2> free_map(const map_run& run);
+
+/// Initial map of a run: its makers are tried in their order.
+struct start_maker
+{
+    std::string_view name;
+    bool (*applies)(const map_run&);
+    run_start (*make)(const map_run&); ///< `useless`: the next one is tried
+};
+
+/// Injective start that satisfies the constraints from a map that need not; `useless` without one.
+inline run_start start_from(const map_run& run, start_map map)
+{
+    run_start start;
+    start.useless = map.uv.empty();
+    start.map = std::move(map);
+    return start.useless ? start : fitted_start(run, std::move(start), false);
+}
+
+/// The makers of initial maps; the last ones make them on the mesh itself.
+inline constexpr start_maker start_makers[] = {
+    {"given", [](const map_run& run) { return !run.params.initial.empty(); },
+     [](const map_run& run)
+     {
+         run_start start;
+         start.map = given_map(run.in.surface, run.in.ideal, run.params, run.in.unit, start.notes);
+         return fitted_start(run, std::move(start), true);
+     }},
+    {"coarse", [](const map_run& run) { return run.starts_coarse(); },
+     [](const map_run&)
+     {
+         run_start start;
+         start.coarse = true;
+         return start;
+     }},
+    {"penalty", [](const map_run& run) { return run.uses_continuation(); },
+     [](const map_run& run) { return penalty_continuation(run).make(); }},
+    {"free map",
+     [](const map_run& run)
+     {
+         return run.held.constrained() && run.params.initial.empty() && run.params.boundary == boundary_mode::free &&
+                !run.outline_pinned();
+     },
+     [](const map_run& run) { return start_from(run, {free_map(run)}); }},
+    {"conformal",
+     [](const map_run& run)
+     { return run.params.start == start_method::conformal && run.params.boundary == boundary_mode::free; },
+     [](const map_run& run) { return start_from(run, conformal_start(run.in.surface, run.in.sides)); }},
+    {"barycentric", [](const map_run&) { return true; },
+     [](const map_run& run)
+     {
+         run_start start;
+         start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric, elimination_solver(),
+                                     [&run] { return run.clock.proceed(); });
+         return fitted_start(run, std::move(start), false);
+     }}};
+
+inline constexpr std::size_t on_the_mesh = 2; ///< the first of these
+
+/// Makes the start of a run by the first of the makers that applies and succeeds.
+inline run_start make_start(const map_run& run, std::size_t first = 0)
+{
+    run_start start;
+    for (const start_maker& maker : std::span(start_makers).subspan(first))
+    {
+        if (!maker.applies(run)) continue;
+        start.stopped = !run.clock.proceed();
+        if (start.stopped) break;
+        run_start made = maker.make(run);
+        made.notes.insert(made.notes.begin(), start.notes.begin(), start.notes.end());
+        if (made.untangling.empty()) made.untangling = std::move(start.untangling);
+        start = std::move(made);
+        if (!start.useless || start.stopped) break;
+    }
+    return start;
+}
+
+} // namespace taut::impl
+
+// A program that maps surfaces alone does without the bodies for tetrahedra.
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/untangle/untangle_triangle.ipp>
+#endif
