@@ -12,7 +12,6 @@
 #include <vector>
 
 #include <taut/impl/atlas/atlas_summary.hpp>
-#include <taut/impl/atlas/convex_relaxing.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
 #include <taut/impl/atlas/filling_cuts.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
@@ -26,6 +25,7 @@
 #include <taut/impl/packing/certificate.hpp>
 #include <taut/impl/packing/outlines.hpp>
 #include <taut/impl/packing/pieces.hpp>
+#include <taut/impl/untangle/convex_corners.hpp>
 
 namespace taut::impl
 {
@@ -165,15 +165,34 @@ private:
         return best;
     }
 
-    /// Moves vertices so that convex polygons become convex in the plane, and lets the maps around follow.
+    /// Makes polygons that are convex in space convex in the plane; at first with free borders, and with fixed ones in
+    /// charts that overlap themselves then. Charts that are to stay are moved as little as possible.
     void make_convex()
     {
-        const auto concave = charts_with_concave(*charts_, polygons_, flat_);
-        const auto bad = settle_charts(*charts_, polygons_, flat_, {});
-        if (params_.keep_charts && !params_.relax) return;
-        for (std::size_t k = 0; k < bad.size(); ++k)
-            if (concave[k] && !bad[k])
-                relax_convex(*charts_, k, polygons_, flat_, [this] { return report_.complete && budget_.in_time(); });
+        if (params_.keep_charts && !params_.relax)
+        {
+            settle_charts(*charts_, polygons_, flat_, {});
+            return;
+        }
+        const auto label = polygon_labels();
+        const auto before = flat_;
+        held_marks<2> held(flat_.size());
+        for (int round = 0; round < 2; ++round)
+        {
+            if (!convex_corners(charts_->surface, label, polygons_, held,
+                                [this] { return report_.complete && budget_.in_time(); })
+                     .make_convex(flat_))
+                return;
+            const auto first = [this](std::size_t k) { return charts_->first_vertex[k]; };
+            for (std::size_t k = 0; k < u(charts_->charts()); ++k)
+            {
+                const auto own = flat_.begin() + first(k), end = flat_.begin() + first(k + 1);
+                if (std::equal(own, end, before.begin() + first(k)) || !overlaps_itself(*charts_, k, flat_)) continue;
+                std::copy(before.begin() + first(k), before.begin() + first(k + 1), own);
+                for_each_border_side(*charts_, static_cast<idx>(k),
+                                     [&](idx from, idx) { held[u(from)] = held_marks<2>::every; });
+            }
+        }
     }
 
     /// Packs charts into the tiles, rounded as in the file.
@@ -184,7 +203,7 @@ private:
             uv_ = flat_;
             return;
         }
-        // Where polygons are made convex there is room for it: nothing is beside a chart yet.
+        // There is room for it: nothing is beside a chart yet.
         polygons_ = convex();
         if (polygons_.size() > 0) make_convex();
         auto params = params_.packing;
@@ -314,14 +333,20 @@ private:
         for (vec2& x : uv_) x.y /= params_.packing.aspect;
     }
 
-    /// The polygons of charts that are convex in space.
-    convex_polygons convex() const
+    /// The polygon of each triangle of the charts; empty: all are triangles.
+    std::vector<idx> polygon_labels() const
     {
         if (params_.charts.together.empty()) return {};
         const auto polygon = polygons_of(facets_, params_.charts.together);
         std::vector<idx> label(charts_->cell_origins.size());
         for (std::size_t i = 0; i < label.size(); ++i) label[i] = polygon[u(charts_->cell_origins[i])];
-        return find_convex_polygons(charts_->surface.cells(), label, charts_->surface.points());
+        return label;
+    }
+
+    /// The polygons of charts that are convex in space.
+    convex_polygons convex() const
+    {
+        return find_convex_polygons(charts_->surface.cells(), polygon_labels(), charts_->surface.points());
     }
 
     /// pinned: as for certify_packing()

@@ -9,6 +9,7 @@
 #include <taut/impl/map/attempt_in_turns.hpp>
 #include <taut/impl/map/attempt_on_mesh.hpp>
 #include <taut/impl/map/choose_start.hpp>
+#include <taut/impl/map/made_convex.hpp>
 #include <taut/impl/map/overlap/keep_apart.hpp>
 #include <taut/impl/map/returned_map.hpp>
 
@@ -72,7 +73,9 @@ inline map_result mapped(const queue& q, const run_surface& surface, const param
     const map_run run(q, surface, params, clock);
     map_result found = solved(run);
     if (params.no_overlap) found = kept_apart(run, std::move(found));
+    found = made_convex(run, std::move(found));
     map_result result = in_user_units(run, placed(run, std::move(found)));
+    tell_concave(run, result);
     if (params.no_overlap) result = certified_apart(run, std::move(result));
     clock.stages.add({.stage = "certify", .vertices = run.vertices()});
     result.report.stages = clock.stages.stages();
