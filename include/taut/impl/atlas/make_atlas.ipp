@@ -13,7 +13,7 @@
 
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
-#include <taut/impl/atlas/filling_cuts.hpp>
+#include <taut/impl/atlas/filled_square.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/pinned_charts.hpp>
@@ -78,10 +78,9 @@ public:
     }
 
 private:
-    /// Cuts charts across their waists, as long as the square is used much better then for the length of the cuts.
+    /// Cuts charts where the square is used much better then for the length of the cuts (filled_square.hpp).
     void fill_better()
     {
-        constexpr double enough = 0.6;                        // use of the square
         constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
         constexpr idx few = 16;                               // charts
         const auto& packing = params_.packing;
@@ -89,16 +88,18 @@ private:
             !packing.walls.empty() || packing.on_grid() || packing.tiles > 1)
             return;
         if (!report_.reason.empty() || !report_.complete || charts_->charts() > few) return;
-        const double length = length_of_seams(mesh_, facets_, seam_);
-        double left = least_length * std::sqrt(surface_area()) + by_seams * length;
-        while (left > 0 && report_.complete)
+        const double longest =
+            least_length * std::sqrt(surface_area()) + by_seams * length_of_seams(mesh_, facets_, seam_);
+        const auto laid = triangles_as_laid();
+        const auto prices = side_prices(mesh_, facets_, params_.charts.together, factors_);
+        auto quietly = packing;
+        quietly.limits = {std::max(budget_.left(), budget::seconds(1e-6)), {}};
+        auto seam = filled_square(mesh_, facets_, laid.uv, prices, quietly)
+                        .run(seam_, longest, [ask = asking("pack")] { return ask({}); });
+        if (seam != seam_)
         {
-            const double use = draft_use(*charts_, triangles_as_laid().uv);
-            const auto best = use < enough ? best_waist(use, left) : waist_cutting::cut{};
-            if (best.sides.empty()) break;
-            left -= best.price;
-            for (const std::size_t s : best.sides) seam_[s] = seam_[u(facets_.twin[s])] = 1;
-            cut(triangles_as_laid());
+            seam_ = std::move(seam);
+            cut(laid);
             const ideal_elements<triangle> ideal(charts_->surface);
             for (std::size_t k = 0; k < energy_.size(); ++k)
                 energy_[k] = area_and_energy(*charts_, k, flat_, ideal).second;
@@ -111,58 +112,6 @@ private:
         double sum = 0;
         for (const double a : ideal_elements<triangle>(mesh_).measure) sum += a;
         return sum;
-    }
-
-    /// How much of the square charts use, about. uv: one per corner of the surface
-    double draft_use(const chart_mesh& charts, std::span<const vec2> uv) const
-    {
-        std::vector<vec2> flat(charts.surface.points().size());
-        for (std::size_t i = 0; i < charts.cell_origins.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-                flat[u(charts.surface.cells()[i][k])] = uv[3 * u(charts.cell_origins[i]) + k];
-        const auto outlines = find_outlines(flat, charts.surface.cells(), charts.first_cell, charts.first_vertex);
-        auto params = params_.packing;
-        params.limits.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
-        return pack_outlined(flat, outlines, params, true).utilization;
-    }
-
-    /// The cut across a chart that lets the square be used better by most for its length; without sides if none is
-    /// worth it. use: without a cut; longest: what it may count
-    waist_cutting::cut best_waist(double use, double longest) const
-    {
-        constexpr std::size_t tried = 2; // charts, those that waste most
-        constexpr idx largest = 12'000;  // triangles: minimum cuts of more take long
-        constexpr double worth = 0.12;   // gain of use, by length by the root of the area
-        const auto outlines =
-            find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
-        std::vector<std::pair<double, std::size_t>> waste;
-        for (const piece& p : make_pieces(flat_, outlines, {}, true))
-            waste.emplace_back(p.area - p.box.x * p.box.y, waste.size());
-        std::sort(waste.begin(), waste.end());
-        const auto prices = side_prices(mesh_, facets_, params_.charts.together, factors_);
-        const auto laid = triangles_as_laid();
-        const double root = std::sqrt(surface_area());
-        waist_cutting::cut best;
-        double most = worth / root;
-        for (std::size_t i = 0; i < std::min(tried, waste.size()); ++i)
-        {
-            const std::size_t k = waste[i].second;
-            if (charts_->first_cell[k + 1] - charts_->first_cell[k] > largest) continue;
-            std::vector<idx> triangles(charts_->cell_origins.begin() + charts_->first_cell[k],
-                                       charts_->cell_origins.begin() + charts_->first_cell[k + 1]);
-            std::sort(triangles.begin(), triangles.end());
-            for (auto& one : waist_cutting(mesh_, triangles, seam_, prices).cuts())
-            {
-                if (one.price > longest) continue;
-                auto seam = seam_;
-                for (const std::size_t s : one.sides) seam[s] = seam[u(facets_.twin[s])] = 1;
-                const double rate = (draft_use(cut_charts(mesh_, facets_, seam), laid.uv) - use) / one.price;
-                if (!(rate > most)) continue;
-                most = rate;
-                best = std::move(one);
-            }
-        }
-        return best;
     }
 
     /// Makes polygons that are convex in space convex in the plane; at first with free borders, and with fixed ones in
