@@ -210,8 +210,7 @@ private:
             auto bad = bad_;
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k] && enlarge(k)) bad[k] = 0;
-            // A border that touches itself, as those of plain shapes do, is mapped with its parts apart.
-            if (round == 0 && !params_.keep_charts && report_.complete) keep_apart(bad);
+            if (round == 0 && !params_.keep_charts && report_.complete) keep_touching_apart(bad);
             idx largest = 0; // of those that are left
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k]) largest = std::max(largest, charts_->first_cell[k + 1] - charts_->first_cell[k]);
@@ -222,6 +221,18 @@ private:
             }
             if (report_.reason.empty()) lay();
         }
+    }
+
+    /// Maps charts anew of which rounding makes the border meet itself, but flattens no triangle: those of plain shapes
+    /// touch themselves. Clears their flags.
+    void keep_touching_apart(std::vector<char>& bad)
+    {
+        std::vector<char> touching(bad.size());
+        for (std::size_t k = 0; k < bad.size(); ++k) touching[k] = bad[k] && turned_triangle(*charts_, k, uv_) < 0;
+        const auto before = touching;
+        keep_apart(touching);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            if (before[k]) bad[k] = touching[k];
     }
 
     /// Scales a chart up if its triangles are not much larger than the units of the file's numbers. Returns whether it

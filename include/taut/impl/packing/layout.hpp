@@ -62,9 +62,9 @@ struct taken_cells
 /// Tiles that are not squares with an open end.
 struct tile_rules
 {
-    idx rows = 0;                ///< height of each tile in cells; 0: that of `side`, and the last one has no end
-    std::span<const idx> groups; ///< the tile that each piece is to be in; empty: any
-    std::span<const idx> only;   ///< the pose that each piece is to have, -1: any; empty: any
+    idx rows = 0;                  ///< height of each tile in cells; 0: that of `side`, and the last one has no end
+    std::span<const idx> groups{}; ///< the tile that each piece is to be in; empty: any
+    std::span<const idx> only{};   ///< the pose that each piece is to have, -1: any; empty: any
 };
 
 /// Places pieces, in the order given, each in the pose whose top is lowest, as low as possible and then as far left, in
