@@ -20,6 +20,7 @@ parameterize_params map_params(const options& given, const mesh<triangle>& m, co
     parameterize_params params;
     read_energy(params, given);
     params.constraints = constraints_of(m, given);
+    if (const auto a = given.rows("polygons")) params.polygons = ids_of(*a);
     if (const auto a = given.rows("initial")) params.initial = points_of<2>(*a, "initial");
     given.read_word(
         "boundary", params.boundary,

@@ -89,6 +89,7 @@ nb::dict dict_of(const map_report& r)
     d["energy"] = r.solve.value;
     d["iterations"] = r.solve.iterations;
     d["scale"] = r.scale;
+    d["concave"] = array_of(r.concave);
     d["stages"] = stages_of(r.stages);
     d["flips"] = dict_of(r.flips);
     const impl::map_seconds& s = r.seconds;

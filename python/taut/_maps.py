@@ -29,6 +29,7 @@ def unwrap(
     holes: bool = False,
     cut: bool = False,
     initial: ArrayLike = None,
+    polygons: ArrayLike = None,
     weights: ArrayLike = None,
     attributes: ArrayLike = None,
     directions: ArrayLike = None,
@@ -65,6 +66,9 @@ def unwrap(
         Whether a surface that is no disk is cut open along a short seam. The result then has `vmapping` and `faces`.
     initial : (n, 2) array-like, optional
         A map to start from.
+    polygons : (m,) array-like of int, optional
+        The polygon of each triangle: those that are convex in space become convex in the map, so that their triangles
+        are positive along any diagonals. `report["concave"]` has those for which pins or a fixed boundary prevent it.
     weights, attributes, directions : (m,), (m, k) and (m, 3) array-like, optional
         Of triangles: how much each counts, numbers that the energy reads, a direction that it may see.
     parameters : (k,) array-like
@@ -118,6 +122,8 @@ def unwrap(
     }
     if initial is not None:
         options["initial"] = _arrays.points("initial", initial, (2,), rows=n)
+    if polygons is not None:
+        options["polygons"] = _arrays.numbers("polygons", polygons, m)
     return call(native().unwrap, points, faces, options, progress=progress, make=Map.of)
 
 

@@ -9,7 +9,6 @@
 
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
-#include <taut/impl/exact/settle_map.hpp>
 #include <taut/impl/io/make_untangle_problem.hpp>
 #include <taut/impl/io/read_surface.hpp>
 #include <taut/impl/io/write_files.hpp>
@@ -114,6 +113,7 @@ private:
     {
         auto params = to_params(options_);
         params.constraints = pins_;
+        params.polygons = file_->faces.of_triangles();
         if (options_.start == start_kind::uv) params.initial = start_from_file();
         params.limits.observer = [this](const taut::progress& p)
         {
@@ -142,9 +142,7 @@ private:
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
-        const auto polygons =
-            impl::find_convex_polygons(surface().cells(), file_->faces.of_triangles(), surface().points());
-        make_convex(polygons);
+        const auto polygons = impl::find_convex_polygons(surface().cells(), file_->faces.of_triangles(), surface().points());
         command_.tell("measure");
         report_.seconds.quality = command_.clock.timed([&] { report_.assess(options_, params, surface(), uv_); });
         take_polygons(report_.after, polygons, uv_);
@@ -154,24 +152,6 @@ private:
         if (!report_.after.quality.flips)
             throw no_valid_map("the map has " + impl::describe_defects<triangle>(report_.after.quality.flips) +
                                "; --precision fp64 may succeed");
-    }
-
-    /// Moves vertices that are free so that polygons which are convex in space are so in the map, as far as that goes:
-    /// whoever reads the file may cut them into other triangles.
-    void make_convex(const impl::convex_polygons& polygons)
-    {
-        if (impl::find_concave(polygons, uv_).empty()) return;
-        std::vector<char> held(uv_.size(), 0);
-        for (const auto& [v, pin] : pins_.pins()) held[static_cast<std::size_t>(v)] = 1;
-        if (options_.boundary != boundary_kind::free)
-            for (const auto& loop : boundary_loops(surface()))
-                for (const idx v : loop) held[static_cast<std::size_t>(v)] = 1;
-        impl::settle_piece(surface().cells(), polygons.corners, 0, surface().vertex_count(), uv_,
-                           {.held = held, .apart = false});
-        if (const auto left = impl::find_concave(polygons, uv_); !left.empty())
-            report_.notes.push_back(count(left.size(), "polygon is", "polygons are") +
-                                    " not convex in the map, though in space; cut along other diagonals, triangles of "
-                                    "them turn over");
     }
 
     /// Never a folded map under the name that was asked for: the best one goes beside it.

@@ -103,7 +103,7 @@ def triangle_weights(s: Surface, island: Island) -> np.ndarray:
 def _map(taut, s, island, pins, energy, no_overlap, cut, weighted, clock):
     """The island, or the parts that it was cut into, each with its map and pins; whether these are done."""
     weights = triangle_weights(s, island) if weighted else None
-    common = dict(energy=energy, weights=weights, holes=True)
+    common = dict(energy=energy, weights=weights, holes=True, polygons=s.triangle_face[island.triangles])
     pinned = len(pins[0]) > 0
     try:
         free = taut.unwrap(island.V, island.F, no_overlap=no_overlap and not pinned, time_limit=clock.left, **common)

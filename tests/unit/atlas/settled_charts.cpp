@@ -8,7 +8,6 @@
 #include <doctest/doctest.h>
 
 #include <taut/impl/atlas/atlas_summary.hpp>
-#include <taut/impl/atlas/convex_relaxing.hpp>
 #include <taut/impl/atlas/round_polygon.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/core/single.hpp>
@@ -69,45 +68,6 @@ TEST_CASE("settled charts: only those that rounding spoils are moved, and only a
     CHECK(turned_triangle(charts, 1, settled) < 0);
     auto stuck = uv;
     CHECK(settle_charts(charts, {}, stuck, {.stored = rounded, .reach = 3e-8}) == std::vector<char>{0, 1});
-}
-
-TEST_CASE("convex polygons: maps follow while all corners keep turning left")
-{
-    // A grid of quads; in the plane one of them has a corner that turns right.
-    constexpr taut::idx n = 4;
-    std::vector<vec3> points;
-    std::vector<vec2> uv;
-    for (taut::idx y = 0; y <= n; ++y)
-        for (taut::idx x = 0; x <= n; ++x)
-        {
-            points.emplace_back(x, y, 0);
-            uv.emplace_back(x, y);
-        }
-    std::vector<std::array<taut::idx, 3>> cells;
-    std::vector<taut::idx> label;
-    for (taut::idx y = 0; y < n; ++y)
-        for (taut::idx x = 0; x < n; ++x)
-        {
-            const taut::idx a = y * (n + 1) + x, b = a + 1, c = b + n + 1, d = c - 1;
-            cells.push_back({a, b, c});
-            cells.push_back({a, c, d});
-            label.insert(label.end(), 2, y * n + x);
-        }
-    const auto charts = charts_of(mesh<triangle>(points, cells));
-    const auto polygons = find_convex_polygons(cells, label, points);
-    REQUIRE(polygons.size() == n * n);
-    uv[2 * (n + 1) + 3] = {2.3, 2.2}; // between its neighbours to the left and below, so that its corner turns right
-    uv[2 * (n + 1) + 2] = {2.3, 2.6};
-    REQUIRE(turned_triangle(charts, 0, uv) < 0);
-    REQUIRE(charts_with_concave(charts, polygons, uv) == std::vector<char>{1});
-    CHECK(settle_charts(charts, polygons, uv, {}) == std::vector<char>{0});
-    CHECK(charts_with_concave(charts, polygons, uv) == std::vector<char>{0});
-    const ideal_elements<triangle> ideal(charts.surface);
-    const double settled = area_and_energy(charts, 0, uv, ideal).second;
-    relax_convex(charts, 0, polygons, uv, [] { return true; });
-    CHECK(turned_triangle(charts, 0, uv) < 0);
-    CHECK(charts_with_concave(charts, polygons, uv) == std::vector<char>{0});
-    CHECK(area_and_energy(charts, 0, uv, ideal).second < 4 + 0.01 * (settled - 4));
 }
 
 TEST_CASE("round polygons: whatever a polygon is in space, its triangles are positive on a circle")

@@ -20,16 +20,17 @@
 namespace taut::impl
 {
 
-/// Short cuts across the waists of a chart, which part it into two of much the same area: long charts fill a square
-/// better so.
+/// Short cuts across the waists and the limbs of a chart: long charts and those with limbs fill a square better so.
 class waist_cutting
 {
 public:
-    /// A cut: sides of the surface, of one triangle of each edge, and what they count.
+    /// A cut: sides of the surface, of one triangle of each edge, what they count, and triangles of the surface on one
+    /// side of them.
     struct cut
     {
         std::vector<std::size_t> sides;
         double price = 0;
+        std::vector<idx> beyond;
     };
 
     /// triangles: of the chart, ascending; seam, price: one a side of the surface
@@ -39,18 +40,43 @@ public:
           rest_(rest_surface::of(part_.charts.surface, part_.charts.surface.cell_count()))
     {
         for (std::size_t s = 0; s < rest_.price.size(); ++s) rest_.price[s] = price[part_.origin(s)];
-        along_ = distances(farthest(distances(0)));
     }
 
-    /// The cheapest cuts between parts of the area, from one end of the chart to the other.
+    /// The cheapest cuts between parts of the area, from one end of the chart to the other, and around its tips.
     std::vector<cut> cuts() const
     {
-        constexpr std::array<std::array<double, 2>, 5> between{
+        constexpr std::array<std::array<double, 2>, 5> across{
             {{0.4, 0.6}, {0.2, 0.45}, {0.55, 0.8}, {0.08, 0.2}, {0.8, 0.92}}};
-        std::vector<idx> order(along_.size());
-        std::iota(order.begin(), order.end(), idx(0));
-        std::stable_sort(order.begin(), order.end(), [&](idx a, idx b) { return along_[u(a)] < along_[u(b)]; });
+        constexpr std::array<std::array<double, 2>, 2> around{{{0.02, 0.12}, {0.06, 0.3}}};
+        constexpr std::size_t tips = 5;
         std::vector<cut> result;
+        std::vector<double> nearest = distances(farthest(distances(0)));
+        add_cuts(nearest, across, result);
+        for (std::size_t k = 1; k < tips; ++k) // each the farthest from those before
+        {
+            const auto from = distances(farthest(nearest));
+            add_cuts(from, around, result);
+            for (std::size_t c = 0; c < nearest.size(); ++c) nearest[c] = std::min(nearest[c], from[c]);
+        }
+        return result;
+    }
+
+private:
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    static surface_part made_part(const mesh<triangle>& m, std::span<const idx> triangles, std::span<const char> seam)
+    {
+        std::vector<idx> number(m.points().size(), -1);
+        return part_of(m, triangles, seam, number);
+    }
+
+    /// Adds the cheapest cuts between what is near and what is far, in parts of the area.
+    void add_cuts(std::span<const double> distance, std::span<const std::array<double, 2>> between,
+                  std::vector<cut>& result) const
+    {
+        std::vector<idx> order(distance.size());
+        std::iota(order.begin(), order.end(), idx(0));
+        std::stable_sort(order.begin(), order.end(), [&](idx a, idx b) { return distance[u(a)] < distance[u(b)]; });
         for (const auto& [low, high] : between)
         {
             std::vector<idx> begin, end;
@@ -63,23 +89,35 @@ public:
             }
             if (begin.empty() || end.empty()) continue;
             cut one;
-            for (const idx s : minimum_cut(rest_, std::vector<char>(rest_.price.size(), 0), begin, end))
+            std::vector<char> seam(rest_.price.size(), 0);
+            for (const idx s : minimum_cut(rest_, seam, begin, end))
             {
+                seam[u(s)] = seam[u(rest_.twin(s))] = 1;
                 one.sides.push_back(part_.origin(u(s)));
                 one.price += rest_.price[u(s)];
             }
-            if (!one.sides.empty()) result.push_back(std::move(one));
+            if (one.sides.empty()) continue;
+            one.beyond = reached(std::move(begin), seam);
+            result.push_back(std::move(one));
         }
-        return result;
     }
 
-private:
-    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
-
-    static surface_part made_part(const mesh<triangle>& m, std::span<const idx> triangles, std::span<const char> seam)
+    /// Triangles of the surface that are reached from these without crossing a seam.
+    std::vector<idx> reached(std::vector<idx> front, std::span<const char> seam) const
     {
-        std::vector<idx> number(m.points().size(), -1);
-        return part_of(m, triangles, seam, number);
+        std::vector<char> seen(rest_.surface.cells().size(), 0);
+        for (const idx c : front) seen[u(c)] = 1;
+        std::vector<idx> all;
+        while (!front.empty())
+        {
+            const idx c = front.back();
+            front.pop_back();
+            all.push_back(part_.triangles[u(c)]);
+            for (idx s = 3 * c; s < 3 * c + 3; ++s)
+                if (rest_.twin(s) >= 0 && !seam[u(s)] && !std::exchange(seen[u(rest_.twin(s) / 3)], 1))
+                    front.push_back(rest_.twin(s) / 3);
+        }
+        return all;
     }
 
     /// From a triangle to all others, between the middles of neighbours.
@@ -117,7 +155,6 @@ private:
 
     surface_part part_;
     rest_surface rest_;
-    std::vector<double> along_; // one a triangle: from one end of the chart
 };
 
 } // namespace taut::impl

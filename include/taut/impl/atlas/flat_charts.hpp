@@ -265,8 +265,7 @@ protected:
     /// Maps these charts anew with their borders kept apart. Clears the flags of those for which that succeeds.
     void keep_apart(std::vector<char>& bad)
     {
-        constexpr idx most = 32;        // one by one: more would take long
-        constexpr int most_steps = 100; // of a chart: needles would take thousands
+        constexpr idx most = 32; // one by one: more would take long
         const double begin = budget_.total();
         idx mended = 0, tried = 0;
         for (std::size_t k = 0; k < bad.size(); ++k)
@@ -284,7 +283,6 @@ protected:
                                        .placement = placement::as_solved,
                                        .holes = true,
                                        .no_overlap = true,
-                                       .solve = {.stopping = {.max_iterations = most_steps}},
                                        .limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("flatten")}};
             const mesh<triangle> chart(std::move(points), std::move(cells));
             if (!check(chart, {.one_boundary = false}).empty()) continue;

@@ -12,9 +12,8 @@
 #include <vector>
 
 #include <taut/impl/atlas/atlas_summary.hpp>
-#include <taut/impl/atlas/convex_relaxing.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
-#include <taut/impl/atlas/filling_cuts.hpp>
+#include <taut/impl/atlas/filled_square.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/pinned_charts.hpp>
@@ -26,6 +25,7 @@
 #include <taut/impl/packing/certificate.hpp>
 #include <taut/impl/packing/outlines.hpp>
 #include <taut/impl/packing/pieces.hpp>
+#include <taut/impl/untangle/convex_corners.hpp>
 
 namespace taut::impl
 {
@@ -78,10 +78,9 @@ public:
     }
 
 private:
-    /// Cuts charts across their waists, as long as the square is used much better then for the length of the cuts.
+    /// Cuts charts where the square is used much better then for the length of the cuts (filled_square.hpp).
     void fill_better()
     {
-        constexpr double enough = 0.6;                        // use of the square
         constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
         constexpr idx few = 16;                               // charts
         const auto& packing = params_.packing;
@@ -89,16 +88,18 @@ private:
             !packing.walls.empty() || packing.on_grid() || packing.tiles > 1)
             return;
         if (!report_.reason.empty() || !report_.complete || charts_->charts() > few) return;
-        const double length = length_of_seams(mesh_, facets_, seam_);
-        double left = least_length * std::sqrt(surface_area()) + by_seams * length;
-        while (left > 0 && report_.complete)
+        const double longest =
+            least_length * std::sqrt(surface_area()) + by_seams * length_of_seams(mesh_, facets_, seam_);
+        const auto laid = triangles_as_laid();
+        const auto prices = side_prices(mesh_, facets_, params_.charts.together, factors_);
+        auto quietly = packing;
+        quietly.limits = {std::max(budget_.left(), budget::seconds(1e-6)), {}};
+        auto seam = filled_square(mesh_, facets_, laid.uv, prices, quietly)
+                        .run(seam_, longest, [ask = asking("pack")] { return ask({}); });
+        if (seam != seam_)
         {
-            const double use = draft_use(*charts_, triangles_as_laid().uv);
-            const auto best = use < enough ? best_waist(use, left) : waist_cutting::cut{};
-            if (best.sides.empty()) break;
-            left -= best.price;
-            for (const std::size_t s : best.sides) seam_[s] = seam_[u(facets_.twin[s])] = 1;
-            cut(triangles_as_laid());
+            seam_ = std::move(seam);
+            cut(laid);
             const ideal_elements<triangle> ideal(charts_->surface);
             for (std::size_t k = 0; k < energy_.size(); ++k)
                 energy_[k] = area_and_energy(*charts_, k, flat_, ideal).second;
@@ -113,67 +114,34 @@ private:
         return sum;
     }
 
-    /// How much of the square charts use, about. uv: one per corner of the surface
-    double draft_use(const chart_mesh& charts, std::span<const vec2> uv) const
-    {
-        std::vector<vec2> flat(charts.surface.points().size());
-        for (std::size_t i = 0; i < charts.cell_origins.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-                flat[u(charts.surface.cells()[i][k])] = uv[3 * u(charts.cell_origins[i]) + k];
-        const auto outlines = find_outlines(flat, charts.surface.cells(), charts.first_cell, charts.first_vertex);
-        auto params = params_.packing;
-        params.limits.time_limit = std::max(budget_.left(), budget::seconds(1e-6));
-        return pack_outlined(flat, outlines, params, true).utilization;
-    }
-
-    /// The cut across a chart that lets the square be used better by most for its length; without sides if none is
-    /// worth it. use: without a cut; longest: what it may count
-    waist_cutting::cut best_waist(double use, double longest) const
-    {
-        constexpr std::size_t tried = 2; // charts, those that waste most
-        constexpr idx largest = 12'000;  // triangles: minimum cuts of more take long
-        constexpr double worth = 0.12;   // gain of use, by length by the root of the area
-        const auto outlines =
-            find_outlines(flat_, charts_->surface.cells(), charts_->first_cell, charts_->first_vertex);
-        std::vector<std::pair<double, std::size_t>> waste;
-        for (const piece& p : make_pieces(flat_, outlines, {}, true))
-            waste.emplace_back(p.area - p.box.x * p.box.y, waste.size());
-        std::sort(waste.begin(), waste.end());
-        const auto prices = side_prices(mesh_, facets_, params_.charts.together, factors_);
-        const auto laid = triangles_as_laid();
-        const double root = std::sqrt(surface_area());
-        waist_cutting::cut best;
-        double most = worth / root;
-        for (std::size_t i = 0; i < std::min(tried, waste.size()); ++i)
-        {
-            const std::size_t k = waste[i].second;
-            if (charts_->first_cell[k + 1] - charts_->first_cell[k] > largest) continue;
-            std::vector<idx> triangles(charts_->cell_origins.begin() + charts_->first_cell[k],
-                                       charts_->cell_origins.begin() + charts_->first_cell[k + 1]);
-            std::sort(triangles.begin(), triangles.end());
-            for (auto& one : waist_cutting(mesh_, triangles, seam_, prices).cuts())
-            {
-                if (one.price > longest) continue;
-                auto seam = seam_;
-                for (const std::size_t s : one.sides) seam[s] = seam[u(facets_.twin[s])] = 1;
-                const double rate = (draft_use(cut_charts(mesh_, facets_, seam), laid.uv) - use) / one.price;
-                if (!(rate > most)) continue;
-                most = rate;
-                best = std::move(one);
-            }
-        }
-        return best;
-    }
-
-    /// Moves vertices so that convex polygons become convex in the plane, and lets the maps around follow.
+    /// Makes polygons that are convex in space convex in the plane; at first with free borders, and with fixed ones in
+    /// charts that overlap themselves then. Charts that are to stay are moved as little as possible.
     void make_convex()
     {
-        const auto concave = charts_with_concave(*charts_, polygons_, flat_);
-        const auto bad = settle_charts(*charts_, polygons_, flat_, {});
-        if (params_.keep_charts && !params_.relax) return;
-        for (std::size_t k = 0; k < bad.size(); ++k)
-            if (concave[k] && !bad[k])
-                relax_convex(*charts_, k, polygons_, flat_, [this] { return report_.complete && budget_.in_time(); });
+        if (params_.keep_charts && !params_.relax)
+        {
+            settle_charts(*charts_, polygons_, flat_, {});
+            return;
+        }
+        const auto label = polygon_labels();
+        const auto before = flat_;
+        held_marks<2> held(flat_.size());
+        for (int round = 0; round < 2; ++round)
+        {
+            if (!convex_corners(charts_->surface, label, polygons_, held,
+                                [this] { return report_.complete && budget_.in_time(); })
+                     .make_convex(flat_))
+                return;
+            const auto first = [this](std::size_t k) { return charts_->first_vertex[k]; };
+            for (std::size_t k = 0; k < u(charts_->charts()); ++k)
+            {
+                const auto own = flat_.begin() + first(k), end = flat_.begin() + first(k + 1);
+                if (std::equal(own, end, before.begin() + first(k)) || !overlaps_itself(*charts_, k, flat_)) continue;
+                std::copy(before.begin() + first(k), before.begin() + first(k + 1), own);
+                for_each_border_side(*charts_, static_cast<idx>(k),
+                                     [&](idx from, idx) { held[u(from)] = held_marks<2>::every; });
+            }
+        }
     }
 
     /// Packs charts into the tiles, rounded as in the file.
@@ -184,7 +152,7 @@ private:
             uv_ = flat_;
             return;
         }
-        // Where polygons are made convex there is room for it: nothing is beside a chart yet.
+        // There is room for it: nothing is beside a chart yet.
         polygons_ = convex();
         if (polygons_.size() > 0) make_convex();
         auto params = params_.packing;
@@ -242,8 +210,7 @@ private:
             auto bad = bad_;
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k] && enlarge(k)) bad[k] = 0;
-            // A border that touches itself, as those of plain shapes do, is mapped with its parts apart.
-            if (round == 0 && !params_.keep_charts && report_.complete) keep_apart(bad);
+            if (round == 0 && !params_.keep_charts && report_.complete) keep_touching_apart(bad);
             idx largest = 0; // of those that are left
             for (std::size_t k = 0; k < bad.size(); ++k)
                 if (bad[k]) largest = std::max(largest, charts_->first_cell[k + 1] - charts_->first_cell[k]);
@@ -254,6 +221,18 @@ private:
             }
             if (report_.reason.empty()) lay();
         }
+    }
+
+    /// Maps charts anew of which rounding makes the border meet itself, but flattens no triangle: those of plain shapes
+    /// touch themselves. Clears their flags.
+    void keep_touching_apart(std::vector<char>& bad)
+    {
+        std::vector<char> touching(bad.size());
+        for (std::size_t k = 0; k < bad.size(); ++k) touching[k] = bad[k] && turned_triangle(*charts_, k, uv_) < 0;
+        const auto before = touching;
+        keep_apart(touching);
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            if (before[k]) bad[k] = touching[k];
     }
 
     /// Scales a chart up if its triangles are not much larger than the units of the file's numbers. Returns whether it
@@ -314,14 +293,20 @@ private:
         for (vec2& x : uv_) x.y /= params_.packing.aspect;
     }
 
-    /// The polygons of charts that are convex in space.
-    convex_polygons convex() const
+    /// The polygon of each triangle of the charts; empty: all are triangles.
+    std::vector<idx> polygon_labels() const
     {
         if (params_.charts.together.empty()) return {};
         const auto polygon = polygons_of(facets_, params_.charts.together);
         std::vector<idx> label(charts_->cell_origins.size());
         for (std::size_t i = 0; i < label.size(); ++i) label[i] = polygon[u(charts_->cell_origins[i])];
-        return find_convex_polygons(charts_->surface.cells(), label, charts_->surface.points());
+        return label;
+    }
+
+    /// The polygons of charts that are convex in space.
+    convex_polygons convex() const
+    {
+        return find_convex_polygons(charts_->surface.cells(), polygon_labels(), charts_->surface.points());
     }
 
     /// pinned: as for certify_packing()

@@ -16,6 +16,7 @@
 #include <taut/impl/atlas/cutting/short_cutting.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
 #include <taut/impl/atlas/seams/straighten.hpp>
+#include <taut/impl/atlas/settled_charts.hpp>
 
 namespace taut::impl
 {
@@ -203,7 +204,8 @@ private:
     }
 
     /// One flag a chart: 1 where its border meets itself once coordinates are rounded. Plain shapes have borders that
-    /// touch themselves exactly.
+    /// touch themselves exactly. Where rounding flattens triangles, they are what lies between: needles, whose sides
+    /// nothing keeps apart.
     std::vector<char> touching_charts() const
     {
         constexpr double digits = 1 << 22;
@@ -212,7 +214,10 @@ private:
         for (const vec2& p : rounded) size = std::max({size, std::abs(p.x), std::abs(p.y)});
         const double unit = size > 0 && size < std::numeric_limits<double>::infinity() ? size / digits : 1;
         for (vec2& p : rounded) p = unit * vec2(std::round(p.x / unit), std::round(p.y / unit));
-        return crossing_charts(*c_.charts_, rounded);
+        auto touching = crossing_charts(*c_.charts_, rounded);
+        for (std::size_t k = 0; k < touching.size(); ++k)
+            touching[k] = touching[k] && turned_triangle(*c_.charts_, k, rounded) < 0;
+        return touching;
     }
 
     /// What the seams count, each edge once.

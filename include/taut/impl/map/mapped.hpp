@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/map/made_convex.hpp>
 #include <taut/impl/map/overlap/keep_apart.hpp>
 #include <taut/impl/map/run_result.hpp>
 #include <taut/impl/map/starts.hpp>
@@ -70,7 +71,9 @@ inline map_result mapped(const queue& q, const run_surface& surface, const param
     const map_run run(q, surface, params, clock);
     map_result found = solved(run);
     if (params.no_overlap) found = kept_apart(run, std::move(found));
+    found = made_convex(run, std::move(found));
     map_result result = in_user_units(run, placed(run, std::move(found)));
+    tell_concave(run, result);
     if (params.no_overlap) result = certified_apart(run, std::move(result));
     clock.stages.add({.stage = "certify", .vertices = run.vertices()});
     result.report.stages = clock.stages.stages();

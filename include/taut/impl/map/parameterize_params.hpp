@@ -75,6 +75,11 @@ struct parameterize_params
     /// unchanged.
     bool no_overlap = false;
 
+    /// Number of the polygon of each triangle, from 0, or empty. Polygons that are convex in space become convex in the
+    /// map, so that their triangles are positive however a reader of a file cuts them; map_report::concave has those
+    /// for which fixed coordinates or limits prevent it.
+    std::vector<idx> polygons = {};
+
     taut::precision precision = precision::automatic;
 
     /// True if lbfgs and conjugate_gradient are preconditioned by a multigrid V-cycle of the Hessian at the start.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,6 +34,10 @@ struct run_surface
           ideal(surface)
     {
         params.data.validate(m.cells().size());
+        if (!params.polygons.empty() && params.polygons.size() != m.cells().size())
+            throw parameter_error("polygons", "must have a number for each triangle, or none");
+        if (std::any_of(params.polygons.begin(), params.polygons.end(), [](idx p) { return p < 0; }))
+            throw parameter_error("polygons", "must be numbers from 0");
     }
 
     /// Vertices that keep their positions in the start.

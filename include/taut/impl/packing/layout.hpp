@@ -62,8 +62,9 @@ struct taken_cells
 /// Tiles that are not squares with an open end.
 struct tile_rules
 {
-    idx rows = 0;                ///< height of each tile in cells; 0: that of `side`, and the last one has no end
-    std::span<const idx> groups; ///< the tile that each piece is to be in; empty: any
+    idx rows = 0;                  ///< height of each tile in cells; 0: that of `side`, and the last one has no end
+    std::span<const idx> groups{}; ///< the tile that each piece is to be in; empty: any
+    std::span<const idx> only{};   ///< the pose that each piece is to have, -1: any; empty: any
 };
 
 /// Places pieces, in the order given, each in the pose whose top is lowest, as low as possible and then as far left, in
@@ -92,6 +93,7 @@ inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::v
         idx lowest = 0; // top of the best
         for (std::size_t k = 0; k < poses[c].size(); ++k)
         {
+            if (!rules.only.empty() && rules.only[c] >= 0 && rules.only[c] != static_cast<idx>(k)) continue;
             const room_mask& mask = poses[c][k].mask;
             const idx height = mask.cells.height;
             if (mask.cells.width > side || ((tiles > 1 || bounded) && height > rows)) continue;

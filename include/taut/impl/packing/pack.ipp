@@ -11,6 +11,7 @@
 #include <random>
 #include <set>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -216,30 +217,41 @@ private:
         keep(best, least);
     }
 
-    /// Tries other orders near the best one, none twice, in a number of constant total time.
+    /// Tries other orders near the best one, none twice, in a number of constant total time; of few pieces other poses
+    /// of single ones, too, since the pose that lies lowest need not leave the best room to the others.
     void reorder(tile_layout& best, double& least)
     {
-        const std::size_t n = pieces_.size();
+        constexpr std::size_t few = 16;
+        const std::size_t n = pieces_.size(), tries = std::min<std::size_t>(100, 3000 / n), more = n <= few ? 120 : 0;
         std::minstd_rand lot(1);
         double last = least;
-        std::set<std::pair<idx, std::vector<idx>>> tried; // by side
-        for (std::size_t k = 0; n > 1 && k < std::min<std::size_t>(100, 3000 / n) && !limits_.over(); ++k)
+        std::vector<idx> only(n, -1);                                        // pose of each piece, -1: any
+        std::set<std::tuple<idx, std::vector<idx>, std::vector<idx>>> tried; // by side
+        for (std::size_t k = 0; n > 1 && k < tries + more && !limits_.over(); ++k)
         {
             auto order = order_;
-            for (std::size_t swaps = 1 + lot() % 2; swaps > 0; --swaps)
+            auto posed = only;
+            if (k >= tries && lot() % 2 == 0)
             {
-                const std::size_t i = lot() % n, j = i + 1 + lot() % std::max<std::size_t>(2, n / 3);
-                if (j < n) std::swap(order[i], order[j]);
+                const std::size_t c = lot() % n;
+                posed[c] = static_cast<idx>(lot() % (poses_[c].size() + 1)) - 1;
             }
+            else
+                for (std::size_t swaps = 1 + lot() % 2; swaps > 0; --swaps)
+                {
+                    const std::size_t i = lot() % n, j = i + 1 + lot() % std::max<std::size_t>(2, n / 3);
+                    if (j < n) std::swap(order[i], order[j]);
+                }
             const auto side = static_cast<idx>(least) - 1;
-            if (n <= 16 && !tried.emplace(side, order).second) continue;
+            if (n <= few && !tried.emplace(side, order, posed).second) continue;
             tile_layout l = lay_out(pieces_, poses_, order, side, params_.tiles, gap_in_cells(1.02 * side + 1),
-                                    cells_per_length_, n > 1500, limits_);
+                                    cells_per_length_, n > 1500, limits_, {}, {.only = posed});
             ++packed_.layouts;
             const double used = std::max(l.width, l.height);
             if (!l.complete || used > 1.002 * last || used > 1.02 * side + 1) continue;
             last = used;
             order_ = std::move(order);
+            only = std::move(posed);
             if (used >= least) continue;
             least = used;
             best = std::move(l);

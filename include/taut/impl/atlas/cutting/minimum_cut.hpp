@@ -26,11 +26,16 @@ inline std::vector<idx> minimum_cut(const rest_surface& rest, std::span<const ch
     const double least = 1e-12 * std::sqrt(rest.total);
     std::vector<char> target(cells, 0);
     for (const idx c : to) target[u(c)] = 1;
-    std::vector<idx> came(cells), queue;
+    std::vector<idx> came(cells), queue, start;
+    for (const idx c : from) came[u(c)] = source;
+    for (const idx c : from) // those with neighbours that are not among them
+        for (idx s = 3 * c; s < 3 * c + 3; ++s)
+            if (rest.twin(s) >= 0 && came[u(rest.twin(s) / 3)] != source && (start.empty() || start.back() != c))
+                start.push_back(c);
     for (;;)
     {
         std::fill(came.begin(), came.end(), none);
-        queue.assign(from.begin(), from.end());
+        queue = start;
         for (const idx c : from) came[u(c)] = source;
         idx end = -1;
         for (std::size_t i = 0; i < queue.size() && end < 0; ++i)

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include <support/size.hpp>
+
+#include <taut/impl/exact/convex_polygons.hpp>
+#include <taut/impl/map/parameterize.hpp>
+
+namespace
+{
+
+using namespace taut;
+
+/// Rough hills of n by n quads, and the quad of each triangle.
+struct hills
+{
+    explicit hills(idx n)
+    {
+        std::vector<vec3> points;
+        for (idx y = 0; y <= n; ++y)
+            for (idx x = 0; x <= n; ++x)
+                points.emplace_back(
+                    x, y, 2.0 * std::sin(0.9 * x + 0.3 * y) * std::cos(1.1 * y) + 0.9 * ((x * 7 + y * 5) % 3));
+        std::vector<std::array<idx, 3>> cells;
+        for (idx y = 0; y < n; ++y)
+            for (idx x = 0; x < n; ++x)
+            {
+                const idx a = y * (n + 1) + x;
+                cells.push_back({a, a + 1, a + n + 2});
+                cells.push_back({a, a + n + 2, a + n + 1});
+                quad.insert(quad.end(), 2, y * n + x);
+            }
+        surface = mesh<triangle>(std::move(points), std::move(cells));
+    }
+
+    std::size_t concave(const std::vector<vec2>& uv) const
+    {
+        return taut::impl::find_concave(taut::impl::find_convex_polygons(surface.cells(), quad, surface.points()), uv).size();
+    }
+
+    mesh<triangle> surface{{}, {}};
+    std::vector<idx> quad;
+};
+
+TEST_CASE("convex polygons: quads that are convex in space are so in the map, with pins and no overlaps, too")
+{
+    queue q;
+    const idx n = test::sized(24, 12);
+    const hills h(n);
+    parameterize_params params;
+    REQUIRE(h.concave(parameterize(q, h.surface, params).uv) > 3); // else there is nothing to see
+    params.polygons = h.quad;
+    const auto check = [&]
+    {
+        const auto r = parameterize(q, h.surface, params);
+        REQUIRE(r);
+        CHECK(h.concave(r.uv) == 0);
+        CHECK(r.report.concave.empty());
+        CHECK(certify<2>(h.surface.cells(), std::span<const vec2>(r.uv)));
+        for (const auto& [v, pin] : params.constraints.pins()) CHECK(r.uv[static_cast<std::size_t>(v)] == pin.value);
+    };
+    check();
+    params.no_overlap = true;
+    check();
+    params.no_overlap = false;
+    const auto free = parameterize(q, h.surface, params).uv;
+    const auto a = static_cast<std::size_t>((n / 3) * (n + 1) + n / 3),
+               b = static_cast<std::size_t>((n / 2) * (n + 1) + 2);
+    params.constraints = constraints<triangle>(h.surface);
+    params.constraints.pin(static_cast<idx>(a), free[a]).pin(static_cast<idx>(b), free[b] + vec2(1.5, 0.5));
+    check();
+}
+
+TEST_CASE("convex polygons: those for which a fixed boundary leaves no room are told")
+{
+    queue q;
+    const hills h(6);
+    parameterize_params params{.boundary = boundary_mode::fixed, .polygons = h.quad};
+    params.barycentric.boundary.shape = boundary_shape::square;
+    const auto r = parameterize(q, h.surface, params);
+    REQUIRE(r);
+    CHECK(certify<2>(h.surface.cells(), std::span<const vec2>(r.uv)));
+    CHECK(r.report.concave.size() == h.concave(r.uv));
+    const auto& notes = r.report.notes;
+    const bool told = !notes.empty() && notes.back().find("not convex in the map") != std::string::npos;
+    CHECK(told == !r.report.concave.empty());
+    params.polygons.pop_back();
+    CHECK_THROWS_AS(parameterize(q, h.surface, params), parameter_error);
+}
+
+} // namespace
