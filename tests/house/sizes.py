@@ -15,7 +15,7 @@ ROOMS = {
     "untangle": (50, "stages, proofs and the device"),
     "edit": (40, "regions, radial basis functions and paste"),
     "compute": (40, "the only room that sees OpenCL"),
-    "dist": (55, "MPI and PETSc, apart from all else; files by ranges are to be a room"),
+    "dist": (58, "MPI and PETSc, apart from all else; files by ranges and in pieces are to be a room"),
     "solve": (35, "methods and line searches"),
 }
 
@@ -28,6 +28,7 @@ GATHER = {
     "impl/objective/map_objective.hpp": 9,
     "impl/objective/running_map.hpp": 9,
     "impl/dist/shape_body.hpp": 9,
+    "impl/dist/file/open_volume.hpp": 9,
     "impl/untangle/state.hpp": 9,
     "impl/untangle/coarse_stage.hpp": 9,
     "impl/map/parameterize_params.hpp": 9,

@@ -1,49 +1,99 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
+#include <filesystem>
 #include <functional>
-#include <string>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 #include <taut/dist.hpp>
-#include <taut/impl/dist/file/ranged_volume.hpp>
-#include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/dist/file/pvtu_volume.hpp>
 
-#include "mpi/mpi_options.hpp"
+#include "mpi/shape_source.hpp"
 
 namespace taut::tools::mpi
 {
 
-/// The shape so far in a mesh file, for a run that may be ended from outside. All functions are collective.
+/// A mesh file with the shape so far, which a later run begins with. All functions are collective.
+template <class Element>
 class checkpoint
 {
 public:
-    /// volume: the input, if that was read by ranges; else file: as process 0 read it, of the others null. All are
-    /// referred to.
-    checkpoint(const dist::impl::communicator& all, const mpi_options& options, const dist::impl::ranged_volume* volume,
-               const io::volume_file* file)
-        : all_(all), options_(options), volume_(volume), file_(file)
+    using points = typename shape_source<Element>::points;
+
+    /// All are referred to.
+    checkpoint(const dist::impl::communicator& all, const mpi_options& options, const shape_source<Element>& source)
+        : all_(all), options_(options), source_(source)
     {
     }
 
-    /// The shape that is there, one position per vertex of the pieces; nothing where there is none. Throws
-    /// unsuitable_input where that is another mesh, io_error.
-    std::vector<vec3> read() const;
+    /// The shape that is there; nothing where there is none. Throws unsuitable_input where that is another mesh,
+    /// io_error.
+    points read() const
+    {
+        std::error_code unknown;
+        const std::string& path = options_.checkpoint;
+        if (path.empty() || !all_.shared(static_cast<int>(std::filesystem::exists(path, unknown)))) return {};
+        return source_.read(path);
+    }
 
     /// Brings a session to its end as solve() does, and writes the shape each time that the interval is over.
-    dist::result<tetrahedron> solve(dist::session<tetrahedron>& session,
-                                    const std::function<run_limits()>& limits_left) const;
+    dist::result<Element> solve(dist::session<Element>& session, const std::function<run_limits()>& limits_left) const
+    {
+        if (options_.checkpoint.empty()) return session.solve(limits_left());
+        using seconds = std::chrono::duration<double>;
+        double interval = options_.checkpoint_interval;
+        int steps = 0, products = 0;
+        double energy = 0, gradient = 0;
+        for (;;)
+        {
+            auto limits = limits_left();
+            const bool last = !(interval < limits.time_limit.count());
+            bool refused = false;
+            if (!last) limits.time_limit = seconds(interval);
+            const auto observer = std::exchange(limits.observer, {});
+            limits.observer = [&](const taut::progress& p)
+            {
+                const bool go_on = !observer || observer(p);
+                refused = refused || !go_on;
+                return go_on;
+            };
+            auto found = session.solve(limits);
+            if (found.report.steps == 0 && found.report.stopped) // too short for anything
+            {
+                interval *= 2;
+                found.report.energy = energy;
+                found.report.gradient = gradient;
+            }
+            energy = found.report.energy;
+            gradient = found.report.gradient;
+            found.report.steps += std::exchange(steps, steps + found.report.steps);
+            found.report.products += std::exchange(products, products + found.report.products);
+            const bool by_interval = !all_.any(last || refused);
+            if (!by_interval || !found.report.stopped || !found.report.flips) return found;
+            source_.write(options_.checkpoint, found.x);
+        }
+    }
 
-    /// After the result is written.
-    void remove() const;
+    /// After the result is written: the file, and the pieces that it names.
+    void remove() const
+    {
+        if (all_.rank() != 0 || options_.checkpoint.empty()) return;
+        std::error_code unknown;
+        const std::filesystem::path path = options_.checkpoint;
+        std::vector<std::filesystem::path> files;
+        if (path.extension() == ".pvtu") files = dist::impl::pieces_of(path);
+        files.push_back(path);
+        for (const auto& file : files) std::filesystem::remove(file, unknown);
+        if (files.size() > 1) std::filesystem::remove(files.front().parent_path(), unknown); // if nothing is left there
+    }
 
 private:
-    void write(const std::vector<vec3>& x) const;
-
     const dist::impl::communicator& all_;
     const mpi_options& options_;
-    const dist::impl::ranged_volume* volume_;
-    const io::volume_file* file_;
+    const shape_source<Element>& source_;
 };
 
 } // namespace taut::tools::mpi

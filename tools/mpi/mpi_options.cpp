@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/mpi_options.hpp"
 
+#include <taut/impl/io/volume_file.hpp>
+
 #include "shared/choices.hpp"
 #include "shared/command_line.hpp"
 #include "shared/shared_options.hpp"
+#include "shared/text_table.hpp"
 
 namespace taut::tools::mpi
 {
@@ -23,6 +26,19 @@ void declare_solver(CLI::App& app, mpi_options& o)
         ->type_name("OPTIONS");
 }
 
+void declare_checkpoint(CLI::App& app, mpi_options& o)
+{
+    add_output(app, "--checkpoint", o.checkpoint, {.may_fail = false},
+               "Write the shape so far to this mesh from time to time; where it is there already, begin with it. "
+               "Removed once the result is written")
+        ->type_name("FILE");
+    app.add_option("--checkpoint-interval", o.checkpoint_interval, "Seconds between two of these")
+        ->type_name("S")
+        ->capture_default_str()
+        ->check(number_that([](double x) { return x >= 1; }, "must be at least 1"))
+        ->needs("--checkpoint");
+}
+
 /// Options of the serial program that mean nothing here.
 void leave_out(CLI::App& app, std::initializer_list<const char*> names)
 {
@@ -39,31 +55,33 @@ void say(CLI::App& app, const std::string& mesh)
 {
     app.get_option("MESH")->description(mesh);
     app.get_option("--output")
-        ->description("Mesh to write, in the format of the input: the same file with other coordinates");
+        ->description("Mesh to write, in the format of the input: the same file, or pieces, with other coordinates");
     app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written;\n"
                "  9 device, MPI or PETSc failed; 130 interrupted, 143 terminated");
 }
 
-constexpr const char* tetrahedra = "Tetrahedra: .mesh .msh .vtk .vtu .node .su2";
-
 } // namespace
+
+std::string count_kinds(const std::array<std::int64_t, 8>& kinds)
+{
+    std::string text;
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+        if (kinds[k] > 0)
+        {
+            const auto shape = io::impl::shape_of(static_cast<io::cell_kind>(k));
+            text += (text.empty() ? "" : ", ") + count(static_cast<std::uint64_t>(kinds[k]), shape.name, shape.names);
+        }
+    return text;
+}
 
 void declare_deform(CLI::App& app, mpi_options& o)
 {
     tools::declare_deform(app, o.shape);
     leave_out(app, {"--picture", "--cut", "--refine", "--refined-map", "--thickness"});
     declare_solver(app, o);
-    add_output(app, "--checkpoint", o.checkpoint, {.may_fail = false},
-               "Write the shape so far to this mesh from time to time; where it is there already, begin with it. "
-               "Removed once the result is written")
-        ->type_name("FILE");
-    app.add_option("--checkpoint-interval", o.checkpoint_interval, "Seconds between two of these")
-        ->type_name("S")
-        ->capture_default_str()
-        ->check(number_that([](double x) { return x >= 1; }, "must be at least 1"))
-        ->needs("--checkpoint");
-    say(app, tetrahedra);
+    declare_checkpoint(app, o);
+    say(app, meshes);
 }
 
 void declare_smooth(CLI::App& app, mpi_options& o)
@@ -71,7 +89,8 @@ void declare_smooth(CLI::App& app, mpi_options& o)
     tools::declare_smooth(app, o.shape);
     leave_out(app, {"--picture", "--cut", "--interfaces"});
     declare_solver(app, o);
-    say(app, tetrahedra);
+    declare_checkpoint(app, o);
+    say(app, meshes);
 }
 
 } // namespace taut::tools::mpi

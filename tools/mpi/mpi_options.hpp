@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +24,13 @@ struct mpi_options
 };
 
 /// Declare the options of either command, without those that are of one process.
+/// What the input may be, for --help.
+inline constexpr const char* meshes =
+    "Volume or planar mesh: .mesh .msh .vtk .vtu .node .su2; in pieces: .pvtu, or the folder of an OpenFOAM case";
+
+/// "32 tetrahedra, 3 wedges": numbers of cells by cell_kind.
+std::string count_kinds(const std::array<std::int64_t, 8>& kinds);
+
 void declare_deform(CLI::App& app, mpi_options& options);
 void declare_smooth(CLI::App& app, mpi_options& options);
 

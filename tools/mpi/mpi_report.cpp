@@ -63,7 +63,7 @@ nlohmann::ordered_json to_json(const mpi_report& r, const mpi_options& o)
     json["output"] = o.shape.output;
     json["format"] = r.format;
     json["read"] = r.read_whole.empty() ? "by ranges" : "by process 0: " + r.read_whole;
-    json["element"] = "tetrahedron";
+    json["element"] = r.mixed ? "mixed" : r.element;
     json["vertices"] = r.vertices;
     json["elements"] = r.elements;
     json["pins"] = r.pins;
@@ -85,6 +85,7 @@ nlohmann::ordered_json to_json(const mpi_report& r, const mpi_options& o)
     json["inverted_start"] = r.before.inverted.size();
     json["inverted"] = r.after.inverted.size();
     json["branch_edges"] = r.after.simplices.branched;
+    if (r.mixed && r.dimension == 3) json["insides"] = insides_json(r.after);
     json["quality_start"] = shapes_json(r.before.shapes);
     json["quality"] = shapes_json(r.after.shapes);
     json["seconds"] = {{"read", r.seconds.read},
@@ -111,6 +112,7 @@ std::string text_of(const mpi_report& r, const mpi_options& o)
               count(r.processes.size()) + ", " + number(static_cast<double>(memory) / 1048576) + " MB of the largest");
     lines.add("device", r.device);
     lines.add("inverted", count(r.before.inverted.size()) + " -> " + count(r.after.inverted.size()));
+    if (r.mixed && r.dimension == 3) lines.add("insides", insides_text(r.after));
     lines.add("energy", number(run.energy) + (run.converged ? ", converged" : ", not converged") + ", " +
                             count(static_cast<std::uint64_t>(run.steps), "step", "steps") + ", " +
                             count(static_cast<std::uint64_t>(run.products), "product", "products"));

@@ -32,7 +32,10 @@ struct mpi_report
 {
     dist::report run;
     std::string format, cells, device;
-    std::string read_whole; ///< why process 0 read the input as a whole; empty: all read it by ranges
+    std::string read_whole;              ///< why process 0 read the input as a whole; empty: all read it by ranges
+    const char* element = "tetrahedron"; ///< a word
+    bool mixed = false;                  ///< there are cells other than simplices
+    int dimension = 3;
     std::size_t vertices = 0, elements = 0, pins = 0, springs = 0;
     volume_state before, after;
     std::vector<process_numbers> processes;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -14,7 +13,6 @@
 #include <taut/impl/dist/fixed_sum.hpp>
 #include <taut/impl/io/pins.hpp>
 #include <taut/impl/io/volume_file.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
 
 #include "shared/failure.hpp"
 #include "volume/group_targets.hpp"
@@ -157,17 +155,7 @@ private:
         const auto sum = sums.totals(all_);
         const auto count = static_cast<double>(all_.sum(static_cast<std::int64_t>(members.size())));
         const vec3 middle = vec3(sum[0], sum[1], sum[2]) / count;
-        rigid_motion<3> motion{.from = middle, .to = middle};
-        if (kind == 4)
-        {
-            const vec3 axis(n[0], n[1], n[2]);
-            const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
-            if (!(largest > 0))
-                throw usage_error("--move " + name + ": the axis of a rotation has no length; give one that has");
-            motion.axis = glm::normalize(axis / largest);
-            motion.angle = n[3] * std::numbers::pi / 180;
-        }
-        if (kind == 3) motion.to += vec3(n[0], n[1], n[2]);
+        const auto motion = motion_of(name, middle, n);
         for (const std::int64_t v : members)
             wishes_.push_back({v, kind == 1 ? middle + n[0] * (point(v) - middle) : motion(point(v)), option_});
     }

@@ -12,7 +12,6 @@
 
 #include <taut/impl/constrain/constraints.hpp>
 #include <taut/impl/io/pins.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
 #include "shared/failure.hpp"
@@ -53,6 +52,22 @@ std::vector<double> numbers_of(const std::string& text, std::size_t count, const
     if (numbers.size() != count)
         throw usage_error(option + ": give " + std::to_string(count) + " numbers with commas between");
     return numbers;
+}
+
+rigid_motion<3> motion_of(const std::string& group, const vec3& middle, const std::vector<double>& numbers)
+{
+    rigid_motion<3> motion{.from = middle, .to = middle};
+    if (numbers.size() == 4)
+    {
+        const vec3 axis(numbers[0], numbers[1], numbers[2]);
+        const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
+        if (!(largest > 0))
+            throw usage_error("--move " + group + ": the axis of a rotation has no length; give one that has");
+        motion.axis = glm::normalize(axis / largest); // whose length may be beyond the range of numbers
+        motion.angle = numbers[3] * std::numbers::pi / 180;
+    }
+    if (numbers.size() == 3) motion.to += vec3(numbers[0], numbers[1], numbers[2]);
+    return motion;
 }
 
 group_targets::group_targets(const io::volume_file& file) : file_(file)
@@ -98,17 +113,7 @@ void group_targets::transform(const std::string& name, std::size_t kind, const s
     const auto& members = group(name).vertices;
     vec3 middle(0.0);
     for (const idx v : members) middle += point(v) / static_cast<double>(members.size());
-    rigid_motion<3> motion{.from = middle, .to = middle};
-    if (kind == 4)
-    {
-        const vec3 axis(n[0], n[1], n[2]);
-        const double largest = std::max({std::abs(axis.x), std::abs(axis.y), std::abs(axis.z)});
-        if (!(largest > 0))
-            throw usage_error("--move " + name + ": the axis of a rotation has no length; give one that has");
-        motion.axis = glm::normalize(axis / largest); // whose length may be beyond the range of numbers
-        motion.angle = n[3] * std::numbers::pi / 180;
-    }
-    if (kind == 3) motion.to += vec3(n[0], n[1], n[2]);
+    const auto motion = motion_of(name, middle, n);
     for (const idx v : members) take(v, kind == 1 ? middle + n[0] * (point(v) - middle) : motion(point(v)), name);
 }
 
@@ -122,7 +127,7 @@ std::string group_targets::note() const
 void group_targets::take(idx v, const vec3& x, const std::string& name)
 {
     const auto [at, is_new] = targets_.try_emplace(v, x);
-    const auto apart = [&](int k) { return std::abs(at->second[k] - x[k]) > rounding_; };
+    const auto apart = [&, at = at](int k) { return std::abs(at->second[k] - x[k]) > rounding_; };
     if (!is_new && at->second != x && !apart(0) && !apart(1) && !apart(2))
     {
         settled_.push_back(v);

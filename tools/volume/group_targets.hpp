@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/measure/rigid_motion.hpp>
 
 namespace taut::tools
 {
@@ -43,6 +44,10 @@ private:
     double rounding_ = 0; ///< distance of places that are the same
     std::vector<idx> settled_;
 };
+
+/// The motion of a group about its middle, by the numbers of :translate: (3) or :rotate: (4). Throws usage_error that
+/// names the group where an axis has no length.
+rigid_motion<3> motion_of(const std::string& group, const vec3& middle, const std::vector<double>& numbers);
 
 /// The file of GROUP=FILE.csv; nothing for other moves.
 std::string file_of_move(const std::string& text);

@@ -42,6 +42,18 @@ public:
         return true;
     }
 
+    /// Whether it is to be made anew for the matrix as it is now; asked once after each change, with the same answer on
+    /// all processes. A set-up costs as much as some seven products, so it is kept as long as systems take few more of
+    /// them than right after it was made.
+    bool due()
+    {
+        constexpr int most = 5, slack = 4; // changes; products
+        const int last = std::exchange(applied_, 0);
+        if (!pc_ || factors_) return true;
+        if (first_ < 0) first_ = last;
+        return kept_++ >= most || last > first_ + slack;
+    }
+
     /// Collective. rows: the matrix. near: positions, D a vertex with a row, whose rigid motions hardly strain; or
     /// none. tried: numbers at owned vertices to try it with.
     void refresh(const free_rows& rows, int dimension, const numbers& near, const numbers& tried)
@@ -59,6 +71,8 @@ public:
             make(rows, dimension, near);
         }
         ++setups_;
+        first_ = -1;
+        kept_ = 0;
         made_ = made_ || (safety_ == 0 && !factors_);
     }
 
@@ -66,6 +80,7 @@ public:
     void apply(const free_rows& rows, const numbers& v, numbers& out)
     {
         if (rows.total() == 0) return std::fill(out.begin(), out.end(), 0.0);
+        ++applied_;
         rows.gather(v, in_);
         require(PCApply(pc_.get(), in_.get(), out_.get()));
         rows.scatter(out_, out);
@@ -152,16 +167,17 @@ private:
     /// Whether it can be set up, and v'M v is positive.
     bool works(const free_rows& rows, const numbers& tried)
     {
-        // Errors of PETSc end on all processes alike.
+        // Errors of PETSc mostly end on all processes alike.
         bool failed = PCSetOperators(pc_.get(), rows.matrix(), rows.matrix()) != 0 || PCSetUp(pc_.get()) != 0;
         PCFailedReason why = PC_NOERROR;
         if (!failed) failed = PCGetFailedReason(pc_.get(), &why) != 0 || why != PC_NOERROR;
-        if (all_.any(failed)) return false;
+        if (all_.any_failed(failed, "PETSc: setting up a preconditioner")) return false;
         rows.gather(tried, in_);
         PetscScalar product = 0, size = 0;
         failed = PCApply(pc_.get(), in_.get(), out_.get()) != 0 || VecDot(in_.get(), out_.get(), &product) != 0 ||
                  VecDot(in_.get(), in_.get(), &size) != 0;
-        return !all_.any(failed || !std::isfinite(product) || (!(product > 0) && size > 0));
+        return !all_.any_failed(failed || !std::isfinite(product) || (!(product > 0) && size > 0),
+                                "PETSc: applying a preconditioner");
     }
 
     communicator all_;
@@ -170,6 +186,7 @@ private:
     petsc_vector in_, out_;
     bool factors_ = false, made_ = false; ///< made: once with the options of the parameters
     int safety_ = 0, setups_ = 0, fallbacks_ = 0;
+    int applied_ = 0, first_ = -1, kept_ = 0; ///< products since the last change, right after the set-up; changes since
 };
 
 } // namespace taut::dist::impl

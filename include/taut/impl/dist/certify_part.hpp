@@ -15,8 +15,6 @@
 #include <taut/impl/dist/fixed_part.hpp>
 #include <taut/impl/dist/part.hpp>
 #include <taut/impl/dist/report.hpp>
-#include <taut/impl/exact/branch_edges.hpp>
-#include <taut/impl/exact/branch_points.hpp>
 #include <taut/impl/exact/certify.hpp>
 
 namespace taut::dist::impl
@@ -42,29 +40,28 @@ certificate certify_part(const part<Element>& p, const std::vector<double>& x, c
                 for (int k = 0; k < D; ++k) points[v][k] = x[D * v + static_cast<std::size_t>(k)];
             const auto owned = [&](idx v) { return p.owns(v); };
             if (p.corners.empty()) return;
-            const auto here =
-                certify<D>(std::span(p.corners), std::span<const vec<D>>(points), measure, p.corners.size());
+            const auto here = certify<D>(std::span(p.corners), std::span<const vec<D>>(points), measure,
+                                         8 * p.corners.size(), p.owners);
             least = here.min_det;
             most = here.max_det;
             finite = std::isfinite(least) && std::isfinite(most);
             for (const idx c : here.ids)
                 if (p.counted[static_cast<std::size_t>(c)]) flipped.push_back(p.cell_ids[static_cast<std::size_t>(c)]);
-            if constexpr (D == 2)
+            // As in the certificate of one process, in space they are looked for where nothing is inverted.
+            constexpr std::size_t ends = D - 1; // of an edge; in the plane a vertex is its own
+            for (std::size_t k = 0; k + ends <= here.branch_ids.size(); k += ends)
             {
-                for (const idx v : branch_points(std::span(p.corners), std::span<const vec<D>>(points), {}))
-                    if (owned(v)) branches.push_back(p.ids[static_cast<std::size_t>(v)]);
+                const idx first = here.branch_ids[k], last = here.branch_ids[k + ends - 1];
+                const auto a = static_cast<std::size_t>(first), b = static_cast<std::size_t>(last);
+                if (!owned(p.numbers[a] < p.numbers[b] ? first : last)) continue;
+                branches.push_back(p.ids[a]);
+                if (D == 3) branches.push_back(p.ids[b]);
             }
-            else
-                for (const auto& e : taut::impl::branch_edges(std::span(p.corners), std::span<const vec<D>>(points)))
-                {
-                    const auto a = static_cast<std::size_t>(e[0]), b = static_cast<std::size_t>(e[1]);
-                    if (owned(p.numbers[a] < p.numbers[b] ? e[0] : e[1]))
-                        branches.insert(branches.end(), {p.ids[a], p.ids[b]});
-                }
         });
     constexpr std::int64_t of_branch = D == 2 ? 1 : 2; // ids
     all.elements = p.cells;
     all.flipped = p.all.sum(static_cast<std::int64_t>(flipped.size()));
+    if (D == 3 && all.flipped > 0) branches.clear();
     all.branched = p.all.sum(static_cast<std::int64_t>(branches.size())) / of_branch;
     const auto first_of_all = [&](std::vector<std::int64_t> ids, std::size_t group)
     {

@@ -3,15 +3,19 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <limits>
 #include <memory>
 #include <new>
 #include <span>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -49,7 +53,9 @@ public:
     {
         MPI_Comm copy = MPI_COMM_NULL;
         require(MPI_Comm_dup(given, &copy), "MPI_Comm_dup");
-        handle_ = std::shared_ptr<handle>(new handle{copy});
+        MPI_Comm guard = MPI_COMM_NULL;
+        require(MPI_Comm_dup(given, &guard), "MPI_Comm_dup");
+        handle_ = std::shared_ptr<handle>(new handle{copy, guard});
         MPI_Comm_rank(copy, &rank_);
         MPI_Comm_size(copy, &size_);
     }
@@ -195,6 +201,47 @@ public:
         agree(failure);
     }
 
+    /// A call of the library. Where it fails on one process between two points where all meet, this one waits for the
+    /// others at its end, and all throw, as in agree(). Where they do not come for a while, as they wait for it
+    /// elsewhere, it prints a message and ends all by MPI_Abort.
+    template <class F>
+    void guarded(const F& f) const
+    {
+        std::exception_ptr failure;
+        try
+        {
+            f();
+        }
+        catch (...)
+        {
+            failure = std::current_exception();
+            if (failure == handle_->told) throw; // all know
+        }
+        MPI_Request request = MPI_REQUEST_NULL;
+        require(MPI_Ibarrier(handle_->guard, &request), "MPI_Ibarrier");
+        wait(request, failure);
+        agree(failure);
+    }
+
+    /// Whether a call of another library failed on any process, which may keep those where it did not waiting inside of
+    /// it: as guarded(), it ends all where these do not come.
+    bool any_failed(bool failed, const char* call) const
+    {
+        int all = failed;
+        MPI_Request request = MPI_REQUEST_NULL;
+        require(MPI_Iallreduce(MPI_IN_PLACE, &all, 1, MPI_INT, MPI_MAX, raw(), &request), "MPI_Iallreduce");
+        wait(request, failed ? std::make_exception_ptr(backend_error(std::string(call) + " failed")) : nullptr);
+        return all != 0;
+    }
+
+    /// How long a process that failed waits for the others: TAUT_MPI_PATIENCE in seconds, or 20.
+    static std::chrono::duration<double> patience()
+    {
+        const char* const wish = std::getenv("TAUT_MPI_PATIENCE");
+        const double seconds = wish ? std::atof(wish) : 0;
+        return std::chrono::duration<double>(seconds > 0 ? seconds : 20);
+    }
+
     /// Throws backend_error for a code of MPI other than success.
     static void require(int code, const char* call)
     {
@@ -208,15 +255,18 @@ public:
 private:
     struct handle
     {
-        MPI_Comm comm;
-        explicit handle(MPI_Comm c) : comm(c) {}
+        MPI_Comm comm, guard;
+        std::exception_ptr told; ///< the last failure that all know of, as it is thrown here
+        handle(MPI_Comm c, MPI_Comm g) : comm(c), guard(g) {}
         handle(const handle&) = delete;
         handle& operator=(const handle&) = delete;
         ~handle()
         {
             int over = 0;
             MPI_Finalized(&over);
-            if (!over) MPI_Comm_free(&comm);
+            if (over) return;
+            MPI_Comm_free(&comm);
+            MPI_Comm_free(&guard);
         }
     };
 
@@ -253,8 +303,34 @@ private:
     [[noreturn]] void fail(int first, const std::exception_ptr& failure) const
     {
         const std::string what = shared(text_of(failure, first), first);
-        if (failure) std::rethrow_exception(failure);
-        throw remote_error(first, what);
+        handle_->told = failure ? failure : std::make_exception_ptr(remote_error(first, what));
+        std::rethrow_exception(handle_->told);
+    }
+
+    /// Waits for what all processes take part in; where this one has failed, not for ever.
+    void wait(MPI_Request& request, const std::exception_ptr& failure) const
+    {
+        const auto begin = std::chrono::steady_clock::now();
+        for (int tries = 0;; ++tries)
+        {
+            int done = 0;
+            require(MPI_Test(&request, &done, MPI_STATUS_IGNORE), "MPI_Test");
+            if (done) return;
+            if (failure && std::chrono::steady_clock::now() - begin > patience()) end(failure);
+            if (tries > 1000) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+
+    [[noreturn]] void end(const std::exception_ptr& failure) const
+    {
+        const std::string text = "taut: error: process " + std::to_string(rank_) +
+                                 " failed while others wait for it, so all are ended: " + text_of(failure, rank_) +
+                                 '\n';
+        std::fputs(text.c_str(), stderr);
+        std::fflush(stderr);
+        constexpr int backend_failed = 9; // as the program's exit codes have it
+        MPI_Abort(raw(), backend_failed);
+        std::abort();
     }
 
     static std::string text_of(const std::exception_ptr& failure, int rank)

@@ -9,16 +9,25 @@
 
 #include <taut/impl/dist/communicator.hpp>
 #include <taut/impl/dist/mesh_piece.hpp>
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/impl/io/volume_file.hpp>
 
 namespace taut::dist::impl
 {
 
 /// Deals out a mesh that the first process has: equal ranges of vertices, whose ids are their numbers there, and of
-/// cells. Collective. m: of that process; others give null.
+/// cells. Collective. m: of that process; others give null. parts: what is said of its simplices where these are parts
+/// of other cells; those of one stay together.
 template <class Element>
-mesh_piece<Element> dealt(const communicator& all, const mesh<Element>* m)
+mesh_piece<Element> dealt(const communicator& all, const mesh<Element>* m,
+                          const io::impl::corner_simplices<Element>* parts = nullptr)
 {
+    struct part_data
+    {
+        std::int64_t owner;
+        double weight;
+        mat<Element::dimension> edges;
+    };
+    parcels<part_data> data(all.ranks());
     using ids = std::array<std::int64_t, static_cast<std::size_t>(Element::corners)>;
     struct numbered
     {
@@ -32,12 +41,20 @@ mesh_piece<Element> dealt(const communicator& all, const mesh<Element>* m)
         {
             if (!m) return;
             const std::size_t n = m->points().size(), c = m->cells().size(), P = all.ranks();
+            const auto cut = [&](std::size_t r)
+            {
+                std::size_t k = c * r / P;
+                if (parts)
+                    while (k > 0 && k < c && parts->cells[k] == parts->cells[k - 1]) ++k;
+                return k;
+            };
             for (std::size_t r = 0; r < P; ++r)
             {
                 for (std::size_t v = n * r / P; v < n * (r + 1) / P; ++v)
                     vertices[r].push_back({static_cast<std::int64_t>(v), m->points()[v]});
-                for (std::size_t k = c * r / P; k < c * (r + 1) / P; ++k)
+                for (std::size_t k = cut(r); k < cut(r + 1); ++k)
                 {
+                    if (parts) data[r].push_back({parts->cells[k], parts->weights[k], parts->regular[k]});
                     ids cell;
                     std::copy(m->cells()[k].begin(), m->cells()[k].end(), cell.begin());
                     cells[r].push_back(cell);
@@ -51,6 +68,12 @@ mesh_piece<Element> dealt(const communicator& all, const mesh<Element>* m)
         piece.points.push_back(v.x);
     }
     piece.cells = all.exchange(cells).items;
+    for (const auto& d : all.exchange(data).items)
+    {
+        piece.owners.push_back(d.owner);
+        piece.weights.push_back(d.weight);
+        piece.edges.push_back(d.edges);
+    }
     return piece;
 }
 

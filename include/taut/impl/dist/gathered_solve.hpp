@@ -41,6 +41,9 @@ public:
         const auto& all = p.all;
         const auto vertices = all.exchange(to_first(all, vertices_of(p, held, lengths, x))).items;
         const auto cells = all.exchange(to_first(all, cells_of(p))).items;
+        const auto data = all.any(!p.owners.empty() || !p.weights.empty())
+                              ? all.exchange(to_first(all, data_of(p))).items
+                              : std::vector<cell_data_here>();
         std::vector<spring> own_springs;
         for (const auto& s : held.springs) own_springs.push_back({p.numbers[s.vertex], s.target, s.weight});
         const auto springs = all.exchange(to_first(all, std::move(own_springs))).items;
@@ -51,7 +54,7 @@ public:
             {
                 if (all.rank() != 0) return;
                 queue q = params.queue ? *params.queue : open_own_queue({});
-                const auto found = solved(vertices, cells, springs, params, q, limits);
+                const auto found = solved(vertices, cells, data, springs, params, q, limits);
                 if (!found) return;
                 steps = found->report.steps;
                 for (std::size_t v = 0; v < found->x.size(); ++v)
@@ -89,6 +92,11 @@ private:
         vec<D> x;
     };
     using corners = std::array<std::int64_t, part<Element>::K>;
+    struct cell_data_here
+    {
+        std::int64_t owner; ///< none: -1
+        double weight;
+    };
 
     template <class T>
     static parcels<T> to_first(const communicator& all, std::vector<T> mine)
@@ -130,8 +138,22 @@ private:
         return mine;
     }
 
+    /// Of the cells of cells_of().
+    static std::vector<cell_data_here> data_of(const part<Element>& p)
+    {
+        std::vector<cell_data_here> mine;
+        std::int64_t first = 0, groups = 0; // owners of the processes before this one
+        if (!p.owners.empty()) groups = p.owners.back() + 1;
+        first = p.all.before(groups);
+        for (std::size_t c = 0; c < p.corners.size(); ++c)
+            if (p.counted[c])
+                mine.push_back({p.owners.empty() ? -1 : first + p.owners[c], p.weights.empty() ? 1.0 : p.weights[c]});
+        return mine;
+    }
+
     static std::optional<session_result<Element>>
-    solved(const std::vector<vertex>& vertices, const std::vector<corners>& cells, const std::vector<spring>& springs,
+    solved(const std::vector<vertex>& vertices, const std::vector<corners>& cells,
+           const std::vector<cell_data_here>& data, const std::vector<spring>& springs,
            const deform_params<Element>& params, queue& q, const run_limits& limits)
     {
         std::vector<vec3> points;
@@ -143,6 +165,11 @@ private:
                                          .precision = params.precision,
                                          .limits = limits};
         how.solve.stopping.gradient_tolerance = params.solve.stopping.gradient_tolerance;
+        for (const auto& d : data)
+        {
+            if (d.owner >= 0) how.owners.push_back(static_cast<idx>(d.owner));
+            how.data.weights.push_back(d.weight);
+        }
         for (const auto& v : vertices)
         {
             points.push_back(v.rest);

@@ -101,6 +101,8 @@ private:
             }
     }
 
+    static constexpr double fine = 1e-4, rough = 1e-2; ///< gains of an initial guess, and of corrections to it
+
     std::pair<numbers, double> guided(const pinned_bodies<Element>& bodies, const numbers& from, bool other_way) const
     {
         const auto& whole = bodies.whole();
@@ -118,7 +120,12 @@ private:
             for (std::size_t k = 0; k < 3; ++k) turns[3 * v + k] = w[static_cast<int>(k)];
             for (std::size_t k = 0; k < D; ++k) x[D * v + k] = p[static_cast<int>(k)];
         }
-        fit(*this, told)(turns, 3, [](std::size_t, std::size_t) { return point(0.0); });
+        fit shaped(*this, still);
+        const auto smooth = [](std::size_t, std::size_t) { return point(0.0); };
+        if (part_.all.any(told != still))
+            fit(*this, told)(turns, 3, fine, smooth);
+        else
+            shaped(turns, 3, fine, smooth);
         std::vector<mat<D>> wanted; // rows: gradients of coordinates
         for (const auto& c : part_.corners)
         {
@@ -127,16 +134,15 @@ private:
                 for (int k = 0; k < 3; ++k) mean[k] += turns[static_cast<std::size_t>(3 * v + k)] / double(K);
             wanted.push_back(glm::transpose(taut::impl::rotation<D>(mean)));
         }
-        fit shaped(*this, still);
         const auto row = [&](std::size_t c, std::size_t k) { return wanted[c][static_cast<int>(k)]; };
-        shaped(x, D, row);
+        shaped(x, D, fine, row);
         // The elements' own rotations: steps of Sorkine and Alexa 2007, "As-rigid-as-possible surface modeling".
         for (int step = 0; step < 2; ++step)
         {
             for (std::size_t c = 0; c < wanted.size(); ++c)
                 if (const mat<D> F = gradient(c, x); glm::determinant(F) > 0)
                     wanted[c] = glm::transpose(taut::impl::nearest_rotation<D>(F));
-            shaped(x, D, row);
+            shaped(x, D, rough, row);
         }
         fixed_sum left;
         for (std::size_t c = 0; c < basis_.size(); ++c)
@@ -161,11 +167,12 @@ private:
             x_ = rows_.make_vector();
         }
 
-        /// u: `width` values a vertex. wanted(cell, component): a gradient.
+        /// u: `width` values a vertex. gain: of the residual. wanted(cell, component): a gradient.
         template <class Wanted>
-        void operator()(numbers& u, std::size_t width, const Wanted& wanted)
+        void operator()(numbers& u, std::size_t width, double gain, const Wanted& wanted)
         {
             if (rows_.total() == 0) return;
+            require(KSPSetTolerances(solver_.get(), gain, PETSC_DEFAULT, PETSC_DEFAULT, 500));
             const auto& p = of_.part_;
             for (std::size_t k = 0; k < width; ++k)
             {
@@ -209,8 +216,6 @@ private:
         require(PetscOptionsPrefixPop(nullptr));
         require(KSPSetOptionsPrefix(made, "taut_draft_"));
         require(KSPSetOperators(made, rows.matrix(), rows.matrix()));
-        constexpr double enough = 1e-4; // an initial guess
-        require(KSPSetTolerances(made, enough, PETSC_DEFAULT, PETSC_DEFAULT, 500));
         require(KSPSetFromOptions(made));
         return solver;
     }

@@ -333,9 +333,15 @@ private:
     void refresh(const point& x, const vector* tried = nullptr)
     {
         const auto timed = clock_.measure(&phase_seconds::setup);
+        const bool due = multigrid_.due();
         std::vector<double> values;
-        attempt([&] { values = elements_.values(); });
+        attempt(
+            [&]
+            {
+                if (due) values = elements_.values();
+            });
         part_.all.agree(std::exchange(failure_, nullptr));
+        if (!due) return;
         std::vector<double> stiff(part_.own, 0.0); // of springs
         for (const auto& s : held_.springs) stiff[s.vertex] += 2 * s.weight / (lengths_ * lengths_);
         rows_.set(

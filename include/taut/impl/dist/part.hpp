@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <taut/impl/dist/curve_order.hpp>
@@ -19,8 +20,9 @@ namespace taut::dist::impl
 {
 
 /// The part of a mesh that one process works on: a range of the vertices along the Morton curve, which it owns; all
-/// cells that touch one of these, so that sums over the cells of an owned vertex need no other process; and the other
-/// vertices of those cells, the halo. Vertices count from 0, owned ones first, those of the halo behind them by number.
+/// cells that touch one of these (with all their parts, where simplices are parts of cells), so that sums over the
+/// cells of an owned vertex need no other process; and the other vertices of those cells, the halo. Vertices count from
+/// 0, owned ones first, those of the halo behind them by number.
 ///
 /// Nothing here depends on how the caller had the mesh distributed, and the order of the cells of a vertex not on the
 /// number of processes: cells are sorted by the numbers of their corners, the least one first.
@@ -40,6 +42,9 @@ public:
     std::vector<cell> corners;
     std::vector<std::int64_t> cell_ids; ///< places among the caller's cells, by process
     std::vector<char> counted;          ///< a flag per cell: it is this process that counts it
+    std::vector<idx> owners;            ///< of cells that are parts of others: numbers of these, ascending; or none
+    std::vector<double> weights;        ///< factors of cells; or none
+    std::vector<mat<Element::dimension>> edges; ///< target shapes of cells; or none
 
     /// Collective. Throws mesh_error, size_error.
     part(const communicator& processes, const mesh_piece<Element>& given) : all(processes), homes_(checked(all, given))
@@ -103,9 +108,15 @@ public:
 private:
     struct sent_cell
     {
-        std::int64_t id;
+        std::int64_t id, owner;
         std::array<std::int64_t, K> corners;
         std::int64_t least() const { return *std::min_element(corners.begin(), corners.end()); }
+    };
+    /// What else is said of a cell.
+    struct sent_data
+    {
+        double weight = 1;
+        mat<Element::dimension> edges = mat<Element::dimension>(1.0);
     };
 
     static homes checked(const communicator& all, const mesh_piece<Element>& given)
@@ -141,31 +152,101 @@ private:
         for (const auto& c : given.cells) named.insert(named.end(), c.begin(), c.end());
         const auto found = homes_.find(named);
         const std::int64_t before = all.before(static_cast<std::int64_t>(given.cells.size()));
+        const bool owned = all.any(!given.owners.empty()), weighted = all.any(!given.weights.empty()),
+                   shaped = all.any(!given.edges.empty());
         parcels<sent_cell> to(all.ranks());
+        parcels<sent_data> more(all.ranks());
         all.together(
             [&]
             {
-                for (std::size_t c = 0; c < given.cells.size(); ++c)
+                require_data(given, owned, weighted, shaped);
+                std::vector<std::size_t> places; // processes that a cell goes to with all its parts
+                for (std::size_t first = 0, last = 0; first < given.cells.size(); first = last)
                 {
-                    sent_cell s{before + static_cast<std::int64_t>(c), {}};
-                    for (std::size_t k = 0; k < K; ++k) s.corners[k] = found[K * c + k];
-                    require_corners(s, given.cells[c]);
-                    std::array<std::size_t, K> owners;
-                    for (std::size_t k = 0; k < K; ++k)
+                    places.clear();
+                    for (; last == first ||
+                           (last < given.cells.size() && owned && given.owners[last] == given.owners[first]);
+                         ++last)
+                        for (std::size_t k = 0; k < K; ++k)
+                            if (const auto v = found[K * last + k]; v >= 0) places.push_back(ranges_.owner(v));
+                    std::sort(places.begin(), places.end());
+                    places.erase(std::unique(places.begin(), places.end()), places.end());
+                    for (std::size_t c = first; c < last; ++c)
                     {
-                        owners[k] = ranges_.owner(s.corners[k]);
-                        const auto end = owners.begin() + static_cast<std::ptrdiff_t>(k);
-                        if (std::find(owners.begin(), end, owners[k]) == end) to[owners[k]].push_back(s);
+                        sent_cell s{
+                            before + static_cast<std::int64_t>(c), before + static_cast<std::int64_t>(first), {}};
+                        std::copy_n(found.begin() + static_cast<std::ptrdiff_t>(K * c), K, s.corners.begin());
+                        require_corners(s, given.cells[c]);
+                        for (const std::size_t r : places) to[r].push_back(s);
+                        if (!weighted && !shaped) continue;
+                        const sent_data data{weighted ? given.weights[c] : 1.0,
+                                             shaped ? given.edges[c] : mat<Element::dimension>(1.0)};
+                        for (const std::size_t r : places) more[r].push_back(data);
                     }
                 }
             });
         sent_ = all.exchange(to).items;
-        std::sort(sent_.begin(), sent_.end(),
-                  [](const sent_cell& a, const sent_cell& b)
-                  {
-                      const std::int64_t p = a.least(), q = b.least();
-                      return p != q ? p < q : a.corners < b.corners;
-                  });
+        std::vector<sent_data> data;
+        if (weighted || shaped) data = all.exchange(more).items;
+        put_in_order(data);
+        for (std::size_t c = 0; owned && c < sent_.size(); ++c)
+            owners.push_back(c == 0 ? 0 : sent_[c].owner == sent_[c - 1].owner ? owners.back() : owners.back() + 1);
+        for (const auto& d : data)
+        {
+            if (weighted) weights.push_back(d.weight);
+            if (shaped) edges.push_back(d.edges);
+        }
+    }
+
+    void require_data(const mesh_piece<Element>& given, bool owned, bool weighted, bool shaped) const
+    {
+        const std::size_t n = given.cells.size();
+        const auto require_size = [n](const char* field, std::size_t size, bool used)
+        {
+            if (used && size != n)
+                throw parameter_error(field, std::to_string(size) + " for " + std::to_string(n) + " cells");
+        };
+        require_size("owners", given.owners.size(), owned);
+        require_size("weights", given.weights.size(), weighted);
+        require_size("edges", given.edges.size(), shaped);
+        for (std::size_t c = 0; c < given.weights.size(); ++c)
+            if (!(given.weights[c] > 0) || !std::isfinite(given.weights[c]))
+                throw parameter_error("weights", "that of cell " + std::to_string(c) +
+                                                     " is not positive and finite; give one that is");
+    }
+
+    /// Sorts the cells, those of an owner as they were, by the first of them; data alike.
+    void put_in_order(std::vector<sent_data>& data)
+    {
+        struct group
+        {
+            std::size_t begin, end;
+            std::int64_t least;
+        };
+        std::vector<group> groups;
+        for (std::size_t c = 0; c < sent_.size(); ++c)
+            if (c > 0 && sent_[c].owner == sent_[c - 1].owner)
+            {
+                groups.back().end = c + 1;
+                groups.back().least = std::min(groups.back().least, sent_[c].least());
+            }
+            else
+                groups.push_back({c, c + 1, sent_[c].least()});
+        std::sort(groups.begin(), groups.end(),
+                  [this](const group& a, const group& b)
+                  { return a.least != b.least ? a.least < b.least : sent_[a.begin].corners < sent_[b.begin].corners; });
+        std::vector<sent_cell> cells_in_order;
+        std::vector<sent_data> data_in_order;
+        cells_in_order.reserve(sent_.size());
+        for (const auto& g : groups)
+            for (std::size_t c = g.begin; c < g.end; ++c)
+            {
+                cells_in_order.push_back(sent_[c]);
+                if (!data.empty()) data_in_order.push_back(data[c]);
+                counted.push_back(g.least >= first() && g.least < first() + static_cast<std::int64_t>(own));
+            }
+        sent_ = std::move(cells_in_order);
+        data = std::move(data_in_order);
     }
 
     static void require_corners(const sent_cell& s, const std::array<std::int64_t, K>& named)
@@ -210,7 +291,6 @@ private:
             }
             corners.push_back(c);
             cell_ids.push_back(s.id);
-            counted.push_back(s.least() >= begin && s.least() < end);
         }
         sent_ = {};
     }

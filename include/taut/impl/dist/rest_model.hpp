@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,7 +52,21 @@ public:
         p.all.together([&] { m = local_mesh(p, unit, regular); });
         if (!regular) p.all.together([&] { ideal = at_rest(p, m.get()); });
         const double whole = regular ? total(p, sizes(p, unit)) : total(p, ideal ? ideal->measure : empty_);
-        if (regular && m) ideal = regular_ones(m->cells().size(), whole / static_cast<double>(p.cells));
+        if (regular && !p.all.any(!p.edges.empty()))
+        {
+            if (m) ideal = regular_ones(m->cells().size(), whole / static_cast<double>(p.cells));
+        }
+        else if (regular)
+        {
+            p.all.together(
+                [&]
+                {
+                    if (m)
+                        ideal = std::make_unique<ideal_elements<Element>>(
+                            taut::impl::elements_with_edges<Element>(std::span(p.edges), 1.0, "edges"));
+                });
+            resize(ideal.get(), whole / total(p, ideal ? ideal->measure : empty_));
+        }
         const double scale = layout::usual_scale(static_cast<double>(p.cells), whole);
         lengths = unit * scale;
         p.all.together(
@@ -63,6 +78,7 @@ public:
                 measure.assign(l->measure.begin(), l->measure.begin() + l->cell_count);
                 weights =
                     params.weights == energy::weighting::uniform ? std::vector<double>(measure.size(), 1.0) : measure;
+                for (std::size_t c = 0; c < p.weights.size(); ++c) weights[c] *= p.weights[c];
             });
         model.total = total(p, weights);
         set_gradient_scale(p);
@@ -114,7 +130,8 @@ private:
                           const bool shape =
                               f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell;
                           // A part ends anywhere.
-                          return f.fault == mesh_fault::non_manifold_vertex || (shape && regular);
+                          return f.fault == mesh_fault::non_manifold_vertex || (shape && regular) ||
+                                 (!shape && !p.owners.empty()); // parts share facets
                       });
         if (!found.empty()) refuse(p, found.front());
         return m;
@@ -151,6 +168,14 @@ private:
         const double edge = std::pow(each / one, 1.0 / D);
         return std::make_unique<taut::impl::ideal_elements<Element>>(
             std::vector<mat<D>>(count, taut::impl::invert_upper(W) / edge), std::vector<double>(count, each));
+    }
+
+    /// Multiplies measures by a factor.
+    static void resize(ideal_elements<Element>* ideal, double factor)
+    {
+        if (!ideal) return;
+        for (auto& inverse : ideal->inverse) inverse /= std::pow(factor, 1.0 / D);
+        for (double& m : ideal->measure) m *= factor;
     }
 
     /// 2 lambda |l|, where l_v = sum over cells at v of w_c |grad phi_v|, as characteristic_gradient().

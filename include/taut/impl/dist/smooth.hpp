@@ -14,7 +14,7 @@ namespace taut::dist
 {
 
 /// Parameters of smooth() over many processes, those of taut::smooth_params that are supported. All processes give the
-/// same but for `fixed`, `queue` and `limits`.
+/// same but for `fixed`, `initial`, `queue` and `limits`.
 struct smooth_params
 {
     /// Treatment of the boundary.
@@ -26,6 +26,9 @@ struct smooth_params
 
     /// Ids of vertices that are fixed, of all processes together.
     std::vector<std::int64_t> fixed = {};
+
+    /// Positions to begin with, if they are not those of the mesh: one per vertex of the piece. No element is inverted.
+    std::vector<vec3> initial = {};
 
     /// Sine of the angle up to which a boundary is flat or straight.
     double flat = 1e-4;
@@ -52,3 +55,12 @@ template <class Element>
 result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params = {});
 
 } // namespace taut::dist
+
+namespace taut::dist::impl
+{
+
+/// The session of smooth(), whose solve() it is. Collective.
+template <class Element>
+session<Element> smoothing_session(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params);
+
+} // namespace taut::dist::impl

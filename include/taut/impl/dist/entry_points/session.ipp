@@ -12,9 +12,10 @@ namespace taut::dist
 
 template <class Element>
 session<Element>::session(MPI_Comm comm, const mesh_piece<Element>& piece, const deform_params<Element>& params)
-    : body_(std::make_unique<impl::shape_body<Element>>(impl::communicator(comm), piece, params)),
-      limits_(params.limits)
+    : limits_(params.limits)
 {
+    const impl::communicator all(comm);
+    all.guarded([&] { body_ = std::make_unique<impl::shape_body<Element>>(all, piece, params); });
 }
 template <class Element>
 session<Element>::~session() = default;
@@ -26,7 +27,7 @@ session<Element>& session<Element>::operator=(session&&) noexcept = default;
 template <class Element>
 session<Element>& session<Element>::constrain(const constraints<Element>& wanted)
 {
-    body_->constrain(wanted);
+    body_->mesh_part().all.guarded([&] { body_->constrain(wanted); });
     return *this;
 }
 
@@ -40,8 +41,12 @@ template <class Element>
 result<Element> session<Element>::solve(const run_limits& limits)
 {
     result<Element> r;
-    r.report = body_->solve(limits);
-    if (r.report.flips) r.x = body_->answer();
+    body_->mesh_part().all.guarded(
+        [&]
+        {
+            r.report = body_->solve(limits);
+            if (r.report.flips) r.x = body_->answer();
+        });
     return r;
 }
 

@@ -15,7 +15,7 @@
 #include <taut/impl/constrain/boundary_slides.hpp>
 #include <taut/impl/dist/shape_body.hpp>
 #include <taut/impl/energy/shape_power.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/mesh/cell_corners.hpp>
 
 namespace taut::dist::impl
 {
@@ -37,7 +37,7 @@ kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& 
     kept.slides.assign(p.size(), mat<D>(1.0));
     if (p.corners.empty() || params.boundary == smooth_boundary::free) return kept;
     const mesh<Element> m(p.points, p.corners);
-    auto facets = taut::impl::boundary_facets(m);
+    auto facets = taut::impl::boundary_facets(m, std::span<const idx>(p.owners));
     std::erase_if(facets,
                   [&](const auto& f) { return std::none_of(f.begin(), f.end(), [&](idx v) { return p.owns(v); }); });
     if (params.boundary == smooth_boundary::fixed)
@@ -61,6 +61,90 @@ kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& 
     return kept;
 }
 
+/// Collective. Fixed vertices are where they are, wherever that is known.
+template <class Element>
+void pin_fixed(const part<Element>& p, const std::vector<std::int64_t>& fixed, kept_boundary<Element>& kept)
+{
+    constexpr int D = Element::dimension;
+    const auto numbers = p.find(fixed);
+    parcels<std::int64_t> to(p.all.ranks());
+    p.all.together(
+        [&]
+        {
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+            {
+                if (numbers[i] < 0)
+                    throw constraint_error(constraint_fault::out_of_range, {},
+                                           "fixed vertex " + std::to_string(fixed[i]) +
+                                               " is none of the mesh; count from 0");
+                const auto at = p.place_of(numbers[i]);
+                to[at.rank].push_back(at.place);
+            }
+        });
+    for (const std::int64_t v : p.all.exchange(to).items)
+    {
+        const auto at = static_cast<std::size_t>(v);
+        kept.pins.pin(p.ids[at], vec<D>(p.points[at]));
+        kept.slides[at] = mat<D>(1.0);
+    }
+}
+
+/// Collective. Whether any vertex slides; then the halo knows the directions, too.
+template <class Element>
+bool slides(const part<Element>& p, kept_boundary<Element>& kept)
+{
+    constexpr int D = Element::dimension;
+    std::vector<double> flat;
+    bool any = false;
+    for (const auto& P : kept.slides)
+        for (int k = 0; k < D; ++k)
+            for (int j = 0; j < D; ++j)
+            {
+                flat.push_back(P[k][j]);
+                any = any || P[k][j] != (k == j ? 1.0 : 0.0);
+            }
+    any = p.all.any(any);
+    if (any)
+    {
+        p.update(flat, D * D);
+        for (std::size_t v = 0, i = 0; v < kept.slides.size(); ++v)
+            for (int k = 0; k < D; ++k)
+                for (int j = 0; j < D; ++j) kept.slides[v][k][j] = flat[i++];
+    }
+    return any;
+}
+
+template <class Element>
+session<Element> smoothing_session(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params)
+{
+    constexpr int D = Element::dimension;
+    const communicator all(comm);
+    all.together([&] { params.validate(); });
+    deform_params<Element> how{.energy = energy::shape_power{params.worst_exponent},
+                               .weights = energy::weighting::uniform,
+                               .shapes = target_shapes::regular,
+                               .solve = params.solve,
+                               .solver = params.solver,
+                               .queue = params.queue,
+                               .limits = params.limits};
+    for (const vec3& x : params.initial) how.initial.push_back(vec<D>(x));
+    // Cells count alike, and so do corners, as in smoothing by one process.
+    mesh_piece<Element> unweighted;
+    if (!piece.weights.empty())
+    {
+        unweighted = piece;
+        unweighted.weights.clear();
+    }
+    session<Element> s(comm, piece.weights.empty() ? piece : unweighted, how);
+    const auto& p = s.body().mesh_part();
+    kept_boundary<Element> kept;
+    all.together([&] { kept = boundary_of(p, params); });
+    pin_fixed(p, params.fixed, kept);
+    if (slides(p, kept)) s.body().slide(std::move(kept.slides));
+    s.constrain(kept.pins);
+    return s;
+}
+
 } // namespace taut::dist::impl
 
 namespace taut::dist
@@ -69,62 +153,7 @@ namespace taut::dist
 template <class Element>
 result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params)
 {
-    constexpr int D = Element::dimension;
-    const impl::communicator all(comm);
-    all.together([&] { params.validate(); });
-    const deform_params<Element> how{.energy = energy::shape_power{params.worst_exponent},
-                                     .weights = energy::weighting::uniform,
-                                     .shapes = target_shapes::regular,
-                                     .solve = params.solve,
-                                     .solver = params.solver,
-                                     .queue = params.queue,
-                                     .limits = params.limits};
-    session<Element> s(comm, piece, how);
-    const auto& p = s.body().mesh_part();
-    impl::kept_boundary<Element> kept;
-    all.together([&] { kept = impl::boundary_of(p, params); });
-    // Fixed ones are where they are, wherever that is known.
-    const auto numbers = p.find(params.fixed);
-    impl::parcels<std::int64_t> to(all.ranks());
-    all.together(
-        [&]
-        {
-            for (std::size_t i = 0; i < numbers.size(); ++i)
-            {
-                if (numbers[i] < 0)
-                    throw constraint_error(constraint_fault::out_of_range, {},
-                                           "fixed vertex " + std::to_string(params.fixed[i]) +
-                                               " is none of the mesh; count from 0");
-                const auto at = p.place_of(numbers[i]);
-                to[at.rank].push_back(at.place);
-            }
-        });
-    for (const std::int64_t v : all.exchange(to).items)
-    {
-        const auto at = static_cast<std::size_t>(v);
-        kept.pins.pin(p.ids[at], vec<D>(p.points[at]));
-        kept.slides[at] = mat<D>(1.0);
-    }
-    std::vector<double> flat;
-    bool slides = false;
-    for (const auto& P : kept.slides)
-        for (int k = 0; k < D; ++k)
-            for (int j = 0; j < D; ++j)
-            {
-                flat.push_back(P[k][j]);
-                slides = slides || P[k][j] != (k == j ? 1.0 : 0.0);
-            }
-    slides = all.any(slides);
-    if (slides)
-    {
-        p.update(flat, D * D);
-        for (std::size_t v = 0, i = 0; v < kept.slides.size(); ++v)
-            for (int k = 0; k < D; ++k)
-                for (int j = 0; j < D; ++j) kept.slides[v][k][j] = flat[i++];
-        s.body().slide(std::move(kept.slides));
-    }
-    s.constrain(kept.pins);
-    return s.solve();
+    return impl::smoothing_session<Element>(comm, piece, params).solve();
 }
 
 } // namespace taut::dist

@@ -100,8 +100,14 @@ private:
             return io::cell_kind::quad;
         case 4:
             return io::cell_kind::tetrahedron;
+        case 5:
+            return io::cell_kind::hexahedron;
+        case 6:
+            return io::cell_kind::wedge;
+        case 7:
+            return io::cell_kind::pyramid;
         default:
-            throw unsuited("it has cells other than tetrahedra of first order");
+            throw unsuited("it has cells of a kind that is not read by ranges");
         }
     }
 
@@ -133,7 +139,7 @@ private:
                  const std::int64_t tags = w.integer(2);
                  if (tags < 0 || tags > 3) throw unsuited("it is in partitions");
                  const std::int64_t physical = tags > 0 ? w.integer(3) : 0, entity = tags > 1 ? w.integer(4) : 0;
-                 c.take(w, static_cast<std::size_t>(3 + tags));
+                 c.take(w, static_cast<std::size_t>(3 + tags), wedge_order::turned);
                  const int d = c.dimension();
                  const auto named = physical != 0 ? names.find({d, physical}) : names.end();
                  if (named != names.end())
@@ -190,7 +196,7 @@ private:
                                         .cell = [kind, groups](const tokens& w, line_cell& c)
                                         {
                                             c.kind = kind;
-                                            c.take(w, 1);
+                                            c.take(w, 1, wedge_order::turned);
                                             c.groups = groups;
                                         }});
             at += n;

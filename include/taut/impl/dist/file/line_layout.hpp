@@ -56,6 +56,13 @@ private:
     bool spare_ = false;
 };
 
+/// Orders of the corners of a wedge: VTK's, and that of gmsh and MEDIT.
+enum class wedge_order
+{
+    vtk,
+    turned
+};
+
 /// A cell of a line: corners by the numbers of the file, and the groups that it belongs to.
 struct line_cell
 {
@@ -64,10 +71,13 @@ struct line_cell
     std::vector<int> groups;
 
     /// Takes corners from words.
-    void take(const tokens& words, std::size_t first)
+    void take(const tokens& words, std::size_t first, wedge_order order = wedge_order::vtk)
     {
         const auto n = static_cast<std::size_t>(io::impl::shape_of(kind).corners);
         for (std::size_t k = 0; k < n; ++k) corners[k] = words.integer(first + k);
+        if (kind != io::cell_kind::wedge || order == wedge_order::vtk) return;
+        std::swap(corners[1], corners[2]);
+        std::swap(corners[4], corners[5]);
     }
     int dimension() const { return io::impl::shape_of(kind).dimension; }
 };

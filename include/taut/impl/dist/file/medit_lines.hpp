@@ -27,7 +27,7 @@ inline line_layout medit_lines(const communicator& all, const std::filesystem::p
         std::string_view group;
         bool tagged;
     };
-    static constexpr std::array<known_section, 7> known = {{
+    static constexpr std::array<known_section, 9> known = {{
         {"Edges", io::cell_kind::line, "edges", true},
         {"Triangles", io::cell_kind::triangle, "triangles", true},
         {"Quadrilaterals", io::cell_kind::quad, "quadrilaterals", true},
@@ -35,6 +35,8 @@ inline line_layout medit_lines(const communicator& all, const std::filesystem::p
         {"Corners", io::cell_kind::vertex, "corners", false},
         {"RequiredVertices", io::cell_kind::vertex, "required_vertices", false},
         {"Hexahedra", io::cell_kind::hexahedron, "hexahedra", true},
+        {"Prisms", io::cell_kind::wedge, "prisms", true},
+        {"Pyramids", io::cell_kind::pyramid, "pyramids", true},
     }};
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     line_layout layout;
@@ -85,18 +87,16 @@ inline line_layout medit_lines(const communicator& all, const std::filesystem::p
         const auto* section =
             std::find_if(known.begin(), known.end(), [&](const auto& s) { return same(s.keyword, keyword); });
         if (keyword.size() > 2 && keyword.back() >= '2' && keyword.back() <= '9') throw unsuited("it has a high order");
-        if (same(keyword, "Prisms") || same(keyword, "Pentahedra") || same(keyword, "Pyramids") ||
-            same(keyword, "Hexaedra"))
-            throw unsuited("it has cells other than tetrahedra");
+        if (same(keyword, "Pentahedra") || same(keyword, "Hexaedra"))
+            throw unsuited("it has cells of a kind that is not read by ranges");
         if (section == known.end()) continue;
-        if (section->kind == io::cell_kind::hexahedron) throw unsuited("it has cells other than tetrahedra");
         layout.sections.push_back({.what = line_section::content::cells,
                                    .text = 0,
                                    .items = items(),
                                    .cell = [s = *section, names = layout.groups.get()](const tokens& w, line_cell& c)
                                    {
                                        c.kind = s.kind;
-                                       c.take(w, 0);
+                                       c.take(w, 0, wedge_order::turned);
                                        const auto n = static_cast<std::size_t>(io::impl::shape_of(s.kind).corners);
                                        c.groups.push_back(
                                            s.tagged ? names->tagged(std::string(s.group), w.integer(n), c.dimension())

@@ -6,8 +6,10 @@
 #include <string>
 #include <utility>
 
+#include <taut/impl/dist/file/foam_volume.hpp>
 #include <taut/impl/dist/file/gmsh_lines.hpp>
 #include <taut/impl/dist/file/medit_lines.hpp>
+#include <taut/impl/dist/file/pvtu_volume.hpp>
 #include <taut/impl/dist/file/su2_lines.hpp>
 #include <taut/impl/dist/file/tetgen_lines.hpp>
 #include <taut/impl/dist/file/text_volume.hpp>
@@ -17,9 +19,27 @@
 namespace taut::dist::impl
 {
 
-/// Collective. Reads a volume by ranges. Throws unsuited where that cannot be, for whatever reason.
+/// Whether a name is that of a mesh in pieces, which the processes share: a .pvtu, or a folder.
+inline bool names_pieces(const communicator& all, const std::filesystem::path& path)
+{
+    return io::impl::small_extension(path) == ".pvtu" || all.shared(foam_volume::is_case(path));
+}
+
+/// Collective. Reads a volume by ranges, or in its pieces. Throws unsuited where it has no pieces and ranges cannot be,
+/// for whatever reason; io_error, mesh_error for pieces.
 inline std::unique_ptr<ranged_volume> open_volume(const communicator& all, const std::filesystem::path& path)
 {
+    if (names_pieces(all, path))
+    {
+        std::unique_ptr<ranged_volume> pieces;
+        const bool vtk = io::impl::small_extension(path) == ".pvtu";
+        if (vtk)
+            pieces = std::make_unique<pvtu_volume>(all, path);
+        else
+            pieces = std::make_unique<foam_volume>(all, path);
+        pieces->format = vtk ? "PVTU" : "OpenFOAM";
+        return pieces;
+    }
     const auto format = io::impl::volume_format_of_name(path);
     std::unique_ptr<ranged_volume> volume;
     const auto lines = [&](line_layout layout) { volume = std::make_unique<text_volume>(all, std::move(layout)); };

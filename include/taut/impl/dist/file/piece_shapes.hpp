@@ -9,15 +9,38 @@
 #include <vector>
 
 #include <taut/impl/dist/fixed_sum.hpp>
+#include <taut/impl/dist/mesh_piece.hpp>
 #include <taut/impl/measure/shape_quality.hpp>
 
 namespace taut::dist::impl
 {
 
-/// Collective. Shapes of the cells of all processes, given by their corners. The numbers of the worst are their places
-/// among all, by process.
-inline taut::impl::shape_quality piece_shapes(const communicator& all, const std::vector<std::array<vec3, 4>>& cells)
+/// Shapes of cells, given by the corners of the simplices of a piece; of a cell of several that of its worst corner.
+inline std::vector<taut::impl::element_shape> shapes_of_cells(const mesh_piece<tetrahedron>& piece,
+                                                              const std::vector<std::array<vec3, 4>>& corners)
 {
+    const auto& owners = piece.owners;
+    std::vector<taut::impl::element_shape> shapes;
+    for (std::size_t c = 0; c < corners.size(); ++c)
+    {
+        const bool joined = c > 0 && !owners.empty() && owners[c - 1] == owners[c];
+        const bool followed = c + 1 < owners.size() && owners[c + 1] == owners[c];
+        const auto s = joined || followed ? taut::impl::corner_shape(corners[c], piece.edges[c])
+                                          : taut::impl::shape_of(corners[c]);
+        if (joined)
+            shapes.back().join(s);
+        else
+            shapes.push_back(s);
+    }
+    return shapes;
+}
+
+/// Collective. Shapes of the cells of all processes. corners: of the simplices of the piece. The numbers of the worst
+/// are their places among all, by process.
+inline taut::impl::shape_quality piece_shapes(const communicator& all, const mesh_piece<tetrahedron>& piece,
+                                  const std::vector<std::array<vec3, 4>>& corners)
+{
+    const auto cells = shapes_of_cells(piece, corners);
     struct ranked
     {
         double mean_ratio;
@@ -35,7 +58,7 @@ inline taut::impl::shape_quality piece_shapes(const communicator& all, const std
     const auto total = static_cast<double>(all.sum(count));
     for (std::size_t c = 0; c < cells.size(); ++c)
     {
-        const auto s = taut::impl::shape_of(cells[c]);
+        const auto& s = cells[c];
         q.worst.join(s);
         sums[0].add(s.mean_ratio);
         sums[1].add(s.scaled_jacobian);

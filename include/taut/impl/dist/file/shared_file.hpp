@@ -75,9 +75,19 @@ private:
     std::shared_ptr<MPI_File> file_;
 };
 
+/// An output that is complete but for its name.
+class pending_output
+{
+public:
+    virtual ~pending_output() = default;
+
+    /// Gives it its name; nothing where that is for another process to do. Throws io_error.
+    virtual void commit() = 0;
+};
+
 /// A file that all processes write, each its own bytes. It has a hidden name beside its own until commit(), and leaves
 /// nothing behind without that; permissions of an older file of its name stay.
-class shared_output
+class shared_output : public pending_output
 {
 public:
     /// Collective. Throws io_error.
@@ -103,7 +113,7 @@ public:
     }
     shared_output(const shared_output&) = delete;
     shared_output& operator=(const shared_output&) = delete;
-    ~shared_output()
+    ~shared_output() override
     {
         if (file_ != MPI_FILE_NULL) MPI_File_close(&file_);
     }
@@ -136,7 +146,7 @@ public:
     }
 
     /// Gives it its own name: of process 0. Throws io_error.
-    void commit()
+    void commit() override
     {
         if (!hidden_) return;
         if (::renameat(*folder_, hidden_->name(), *folder_, target_.filename().c_str()) != 0)

@@ -30,8 +30,14 @@ inline io::cell_kind kind_of_vtk(std::int64_t type)
         return io::cell_kind::quad;
     case 10:
         return io::cell_kind::tetrahedron;
+    case 12:
+        return io::cell_kind::hexahedron;
+    case 13:
+        return io::cell_kind::wedge;
+    case 14:
+        return io::cell_kind::pyramid;
     default:
-        throw unsuited("it has cells other than tetrahedra");
+        throw unsuited("it has cells of a kind that is not read by ranges");
     }
 }
 

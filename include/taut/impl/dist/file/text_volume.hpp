@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,10 +36,8 @@ public:
         if (vertices != layout_.vertices) throw unsuited("it has not one item a line");
         find_numbers();
         share_names();
-        std::vector<std::int64_t> named;
-        for (const auto& c : piece.cells) named.insert(named.end(), c.begin(), c.end());
-        const auto places = places_of(std::move(named));
-        for (std::size_t k = 0; k < places.size(); ++k) piece.cells[k / 4][k % 4] = places[k];
+        corners_ = places_of(std::move(corners_));
+        finish_cells();
         numbers_.clear();
         numbers_.shrink_to_fit();
     }
@@ -80,9 +79,10 @@ public:
                 });
             const std::string& text = k == 0 ? changed : layout_.texts[k]->text();
             const auto begin = static_cast<std::size_t>(all_.before(static_cast<std::int64_t>(text.size())));
-            files.push_back(std::make_unique<shared_output>(all_, name));
-            files.back()->write(begin, text);
-            files.back()->close();
+            auto file = std::make_unique<shared_output>(all_, name);
+            file->write(begin, text);
+            file->close();
+            files.push_back(std::move(file));
         }
         return files;
     }
@@ -126,7 +126,8 @@ private:
              [this](const line_cell& c)
              {
                  if (c.dimension() < 3) return;
-                 piece.cells.push_back({c.corners[0], c.corners[1], c.corners[2], c.corners[3]});
+                 const auto n = static_cast<std::size_t>(io::impl::shape_of(c.kind).corners);
+                 add_solid(c.kind, std::span<const std::int64_t>(c.corners).first(n));
              });
     }
 

@@ -21,18 +21,22 @@ namespace taut::dist
 volume_pieces::volume_pieces(MPI_Comm comm, const std::filesystem::path& path)
 {
     const impl::communicator all(comm);
-    try
-    {
-        volume_ = impl::open_volume(all, path);
-        const auto corners = volume_->at_corners(volume_->piece.points);
-        if (!(impl::piece_shapes(all, corners).worst.mean_ratio > 0))
-            throw impl::unsuited("cells are inverted or flat");
-    }
-    catch (const impl::unsuited& e)
-    {
-        read_whole_ = e.what();
-        volume_ = std::make_unique<impl::whole_volume>(all, path);
-    }
+    all.guarded(
+        [&]
+        {
+            try
+            {
+                volume_ = impl::open_volume(all, path);
+                const auto corners = volume_->at_corners(volume_->piece.points);
+                if (!volume_->partitioned && !(impl::piece_shapes(all, volume_->piece, corners).worst.mean_ratio > 0))
+                    throw impl::unsuited("cells are inverted or flat");
+            }
+            catch (const impl::unsuited& e)
+            {
+                read_whole_ = e.what();
+                volume_ = std::make_unique<impl::whole_volume>(all, path);
+            }
+        });
 }
 volume_pieces::~volume_pieces() = default;
 volume_pieces::volume_pieces(volume_pieces&&) noexcept = default;
@@ -59,7 +63,10 @@ std::vector<std::int64_t> volume_pieces::members(const std::string& group) const
 {
     io::volume_file names; // of the groups alone
     for (const auto& g : volume_->groups) names.groups.push_back({g.name, g.dimension, {}});
-    return volume_->members(static_cast<std::size_t>(&names.find_group(group) - names.groups.data()));
+    std::vector<std::int64_t> found;
+    volume_->processes().guarded(
+        [&] { found = volume_->members(static_cast<std::size_t>(&names.find_group(group) - names.groups.data())); });
+    return found;
 }
 
 void volume_pieces::write(const std::filesystem::path& path, const std::vector<vec3>& x) const
@@ -72,12 +79,7 @@ void volume_pieces::write(const std::filesystem::path& path, const std::vector<v
                 throw parameter_error("x", std::to_string(x.size()) + " positions for " +
                                                std::to_string(volume_->piece.points.size()) + " vertices of the piece");
         });
-    const auto files = volume_->write(path, x);
-    all.together(
-        [&]
-        {
-            for (const auto& file : files) file->commit();
-        });
+    all.guarded([&] { volume_->commit(volume_->write(path, x)); });
 }
 
 report deform(MPI_Comm comm, const std::filesystem::path& input, const std::filesystem::path& output,

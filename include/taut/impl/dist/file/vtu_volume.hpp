@@ -43,6 +43,7 @@ public:
                    read_cells();
                });
         bound();
+        finish_cells();
         find_groups();
     }
 
@@ -57,22 +58,23 @@ public:
     outputs write(const std::filesystem::path& path, const std::vector<vec3>& x) const override
     {
         outputs files;
-        files.push_back(std::make_unique<shared_output>(all_, path));
+        auto file = std::make_unique<shared_output>(all_, path);
         const auto P = all_.ranks(), r = static_cast<std::size_t>(all_.rank());
         const std::size_t begin = file_.size / P * r + file_.size % P * r / P,
                           end = file_.size / P * (r + 1) + file_.size % P * (r + 1) / P;
         all_.together(
             [&]
             {
-                copy(*files[0], begin, std::min(end, points_->data));
-                copy(*files[0], std::max(begin, points_->data + points_->bytes), end);
+                copy(*file, begin, std::min(end, points_->data));
+                copy(*file, std::max(begin, points_->data + points_->bytes), end);
                 std::string bytes(x.size() * 24, '\0');
                 for (std::size_t v = 0; v < x.size(); ++v)
                     for (int k = 0; k < 3; ++k)
                         io::impl::store(bytes.data() + 24 * v + 8 * static_cast<std::size_t>(k), x[v][k], order_);
-                files[0]->write(points_->data + 24 * static_cast<std::size_t>(first()), bytes);
+                file->write(points_->data + 24 * static_cast<std::size_t>(first()), bytes);
             });
-        files[0]->close();
+        file->close();
+        files.push_back(std::move(file));
         return files;
     }
 
@@ -264,7 +266,7 @@ private:
                 for (const std::int64_t v : c)
                     if (v < 0 || static_cast<std::size_t>(v) >= point_count_)
                         throw unsuited("a cell names a vertex that is not there");
-                if (kind == io::cell_kind::tetrahedron) piece.cells.push_back({c[0], c[1], c[2], c[3]});
+                if (io::impl::shape_of(kind).dimension == 3) add_solid(kind, c);
             });
     }
 

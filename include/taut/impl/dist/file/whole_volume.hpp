@@ -24,18 +24,23 @@ public:
     /// Collective. Throws io_error, mesh_error.
     whole_volume(const communicator& all, const std::filesystem::path& path) : ranged_volume(all)
     {
-        std::unique_ptr<mesh<tetrahedron>> m;
+        std::unique_ptr<io::impl::corner_simplices<tetrahedron>> parts;
         std::string names;
         all_.together(
             [&]
             {
                 if (all_.rank() != 0) return;
                 file_ = io::read_volume_file(path);
-                m = std::make_unique<mesh<tetrahedron>>(io::tetrahedra_of(file_));
+                parts = std::make_unique<io::impl::corner_simplices<tetrahedron>>(
+                    io::corner_simplices_of<tetrahedron>(file_));
+                mixed = parts->overlapping;
+                cells = parts->cells.back() + 1;
                 format = file_.format;
                 for (const auto& g : file_.groups) names += std::to_string(g.dimension) + g.name + '\n';
             });
-        piece = dealt<tetrahedron>(all_, m.get());
+        mixed = all_.shared(mixed);
+        cells = all_.shared(cells);
+        piece = dealt<tetrahedron>(all_, parts ? &parts->simplices : nullptr, mixed ? parts.get() : nullptr);
         format = all_.shared(format);
         names = all_.shared(names);
         for (std::size_t at = 0; at < names.size();)

@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: MIT
+"""partitioned.py CASE TAUT_MPI TAUT MPIEXEC FOLDER: taut-mpi on meshes in pieces, of other cells, and of the plane."""
+import filecmp
+import os
+
+import program
+from piece_files import foam, foam_case, mixed_bar, points_of_foam, points_of_vtu, pvtu, vtu
+from program import bar, fails, near, run, serial, stats, stats_of_check, stretched
+
+
+def pins_of(points):
+    with open("pins.csv", "w") as f:
+        for v, p in enumerate(points):
+            if p[2] in (0, 4):
+                f.write("%d,%.17g,%.17g,%.17g\n" % (v, *(p if p[2] == 0 else stretched(p))))
+
+
+def expect_moved(points, pieces, x_of, energy, found=None):
+    """Pins are met, points that pieces share are one, and the energy is that of the whole mesh."""
+    near(stats("s.json")["energy"], energy, 9)
+    found = {} if found is None else found
+    for k, own in enumerate(pieces):
+        for v, x in zip(own, x_of(k), strict=True):
+            assert found.setdefault(v, x) == x, (v, x)
+            if points[v][2] in (0, 4):
+                assert x == tuple(stretched(points[v]) if points[v][2] == 4 else points[v]), (v, x)
+    return found
+
+
+def whole_energy(points, cells):
+    vtu("whole.vtu", points, cells)
+    run("deform", "whole.vtu", "--pins", "pins.csv", "-o", "moved.vtu", "--stats", "whole.json")
+    return stats("whole.json")["energy"]
+
+
+def case_pieces():
+    b = bar(3)
+    pins_of(b.points)
+    energy = whole_energy(b.points, b.cells)
+    for count, processes, ids in ((5, 1, True), (2, 3, True), (3, 2, False)):
+        pieces = pvtu(f"in{count}.pvtu", b.points, b.cells, count, ids, empty=count == 5)
+        if ids:  # vertices have the order of the global ids
+            pins = ("--pins", "pins.csv")
+        else:
+            order = []
+            for own in pieces:
+                order += [v for v in own if v not in order]
+            with open("own.csv", "w") as f:
+                for k, v in enumerate(order):
+                    p = b.points[v]
+                    if p[2] in (0, 4):
+                        f.write("%d,%.17g,%.17g,%.17g\n" % (k, *(p if p[2] == 0 else stretched(p))))
+            pins = ("--pins", "own.csv")
+        run("deform", f"in{count}.pvtu", *pins, "-o", "out.pvtu", "--stats", "s.json", processes=processes)
+        assert stats("s.json")["format"] == "PVTU"
+        expect_moved(b.points, pieces, lambda k: points_of_vtu(f"out/piece_{k}.vtu"), energy)
+        for k in range(count):  # all else is as it was
+            with open(f"in{count}/piece_{k}.vtu") as f, open(f"out/piece_{k}.vtu") as g:
+                old, new = f.read(), g.read()
+            assert old.split("</Points>")[1] == new.split("</Points>")[1]
+            assert old.split("<Points>")[0] == new.split("<Points>")[0]
+        found = stats_of_check("out.pvtu")
+        assert found["valid"] and found["elements"] == len(b.cells), found
+    with open("out.pvtu") as f:
+        assert 'Source="out/piece_2.vtu"' in f.read()
+    # Groups of arrays, over all pieces.
+    run("deform", "in3.pvtu", "--fix", "region:0", "--fix", "region:1", "-o", "same.pvtu", "--stats", "s.json")
+    assert stats("s.json")["pins"] == len(b.points)
+    assert all(filecmp.cmp(f"in3/piece_{k}.vtu", f"same/piece_{k}.vtu", shallow=False) for k in range(3))
+    run("smooth", "in3.pvtu", "-o", "smooth.pvtu", "--stats", "s.json")
+    assert stats("s.json")["quality"]["mean_ratio"]["mean"] > stats("s.json")["quality_start"]["mean_ratio"]["mean"]
+    # A checkpoint is in pieces, too; it is left out of the way once the result is there.
+    run("deform", "in3.pvtu", "--fix", "region:0", "-o", "again.pvtu", "--checkpoint", "same.pvtu", "--stats", "s.json")
+    assert not os.path.exists("same.pvtu") and not os.path.exists("same"), os.listdir(".")
+    # What is wrong, one message says, and nothing is left.
+    fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "in3.pvtu", code=2, word="in3.pvtu")
+    fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "out.vtu", code=2, word=".pvtu")
+    os.remove("in3/piece_2.vtu")
+    fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "x.pvtu", code=3, word="piece_2.vtu")
+    assert not os.path.exists("x")
+
+
+def case_foam():
+    b = bar(3)
+    pins_of(b.points)
+    energy = whole_energy(b.points, b.cells)
+
+    def patch(corners):
+        return "floor" if all(p[2] == 0 for p in corners) else "roof" if all(p[2] == 4 for p in corners) else "walls"
+
+    for name, count, binary, processes in (("text", 3, False, 2), ("bytes", 2, True, 3), ("many", 4, True, 1)):
+        pieces = foam_case(name, b.points, b.cells, count, patch, binary)
+        run("deform", name, "--pins", "pins.csv", "-o", name + "-moved", "--stats", "s.json", processes=processes)
+        assert stats("s.json")["format"] == "OpenFOAM"
+        expect_moved(b.points, pieces, lambda k: points_of_foam(f"{name}-moved/processor{k}/constant/polyMesh"), energy)
+        for k in range(count):
+            here, there = (f"{c}/processor{k}/constant/polyMesh" for c in (name, name + "-moved"))
+            assert sorted(os.listdir(here)) == sorted(os.listdir(there))
+            for file in os.listdir(here):
+                assert (file == "points") != filecmp.cmp(f"{here}/{file}", f"{there}/{file}", shallow=False), file
+    # Patches are groups.
+    run("deform", "bytes", "--fix", "floor", "--move", "roof:translate:0,0,2", "-o", "group", "--stats", "s.json")
+    near(stats("s.json")["energy"], energy, 9)
+    assert stats_of_check("group")["elements"] == len(b.cells)
+    # One that is not decomposed; one without numbers of points, which are joined where they are.
+    foam("one/constant/polyMesh", b.points, b.cells, lambda around: patch([b.points[v] for v in around]))
+    run("deform", "one", "--pins", "pins.csv", "-o", "one-moved", "--stats", "s.json", processes=3)
+    near(stats("s.json")["energy"], energy, 9)
+    foam_case("plain", b.points, b.cells, 2, patch, numbers=False)
+    run("deform", "plain", "--fix", "floor", "--move", "roof:translate:0,0,2", "-o", "plain-moved", "--stats", "s.json")
+    near(stats("s.json")["energy"], energy, 9)
+    # Polyhedra, what is compressed, and what is no case are refused by name.
+    os.makedirs("empty")
+    fails("deform", "empty", "-o", "x", code=3, word="no case of OpenFOAM")
+    os.rename("plain/processor1", "plain/processor7")
+    fails("deform", "plain", "-o", "x", code=3, word="processor0 to processor7")
+    os.rename("one/constant/polyMesh/owner", "one/constant/polyMesh/owner.gz")
+    fails("deform", "one", "-o", "x", code=3, word="gunzip")
+    path = "text/processor1/constant/polyMesh/faces"
+    with open(path) as f:
+        text = f.read()
+    cut = text.index("\n3(") + 1
+    with open(path, "w") as f:
+        f.write(text[:cut] + "5(0 1 2 3 4" + text[text.index(")", cut):])
+    fails("deform", "text", "-o", "x", code=3, word="split polyhedra")
+
+
+def case_mixed():
+    points, cells = mixed_bar(3)
+    pins_of(points)
+    vtu("mixed.vtu", points, cells)
+    serial("deform", "mixed.vtu", "--pins", "pins.csv", "-o", "one.vtu", "--stats", "one.json", "--tolerance", "1e-9")
+    one = stats("one.json")
+    for processes in (1, 3):
+        run("deform", "mixed.vtu", "--pins", "pins.csv", "-o", "all.vtu", "--stats", "s.json", "--tolerance", "1e-9",
+            processes=processes)
+        s = stats("s.json")
+        near(s["energy"], one["energy"], 8)  # the serial one computes in float
+        assert s["element"] == "mixed" and s["inverted"] == 0 and s["insides"]["negative"] == 0, s
+        assert s["elements"] == one["elements"] == len(cells)
+    serial("check", "all.vtu")
+    found = stats_of_check("all.vtu")
+    assert found["valid"] and found["insides"] == {"negative": 0, "undecided": 0}, found
+    serial("smooth", "mixed.vtu", "-o", "one.vtu", "--interfaces", "free", "--stats", "one.json", "--tolerance", "1e-9")
+    run("smooth", "mixed.vtu", "-o", "all.vtu", "--stats", "s.json", "--tolerance", "1e-9")
+    near(stats("s.json")["energy"], stats("one.json")["energy"], 7)
+    # In pieces, and of OpenFOAM.
+    energy = s["energy"]
+    pieces = pvtu("in.pvtu", points, cells, 3)
+    run("deform", "in.pvtu", "--pins", "pins.csv", "-o", "out.pvtu", "--stats", "s.json", "--tolerance", "1e-9")
+    expect_moved(points, pieces, lambda k: points_of_vtu(f"out/piece_{k}.vtu"), energy)
+    pieces = foam_case("case", points, cells, 3, lambda corners: "walls", binary=True)
+    run("deform", "case", "--pins", "pins.csv", "-o", "moved", "--stats", "s.json", "--tolerance", "1e-9")
+    expect_moved(points, pieces, lambda k: points_of_foam(f"moved/processor{k}/constant/polyMesh"), energy)
+
+
+def case_ranges():
+    """Other cells by ranges in the formats that have them."""
+    points, cells = mixed_bar(2)
+    pins_of(points)
+    names = {8: "Hexahedra", 6: "Prisms", 5: "Pyramids"}
+    with open("mixed.mesh", "w") as f:
+        f.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n")
+        f.writelines("%.17g %.17g %.17g 0\n" % tuple(p) for p in points)
+        for n, name in names.items():
+            some = [[c[v] for v in ((0, 2, 1, 3, 5, 4) if n == 6 else range(n))] for c in cells if len(c) == n]
+            f.write(f"{name}\n{len(some)}\n")
+            f.writelines(" ".join(str(v + 1) for v in c) + " 0\n" for c in some)
+        f.write("End\n")
+    with open("mixed.su2", "w") as f:
+        f.write(f"NDIME= 3\nNELEM= {len(cells)}\n")
+        f.writelines(f"{ {8: 12, 6: 13, 5: 14}[len(c)]} " + " ".join(map(str, c)) + "\n" for c in cells)
+        f.write(f"NPOIN= {len(points)}\n")
+        f.writelines("%.17g %.17g %.17g\n" % tuple(p) for p in points)
+        f.write("NMARK= 0\n")
+    with open("mixed.msh", "w") as f:
+        f.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}\n")
+        f.writelines("%d %.17g %.17g %.17g\n" % (k + 1, *p) for k, p in enumerate(points))
+        f.write(f"$EndNodes\n$Elements\n{len(cells)}\n")
+        for k, c in enumerate(cells):
+            c = [c[v] for v in ((0, 2, 1, 3, 5, 4) if len(c) == 6 else range(len(c)))]
+            f.write(f"{k + 1} { {8: 5, 6: 6, 5: 7}[len(c)]} 2 1 1 " + " ".join(str(v + 1) for v in c) + "\n")
+        f.write("$EndElements\n")
+    energies = []
+    for name in ("mixed.su2", "mixed.mesh", "mixed.msh"):
+        out = "out" + os.path.splitext(name)[1]
+        run("deform", name, "--pins", "pins.csv", "-o", out, "--stats", "s.json", "--tolerance", "1e-9")
+        assert stats("s.json")["read"] == "by ranges", stats("s.json")["read"]
+        energies.append(stats("s.json")["energy"])
+        serial("check", out)
+    for e in energies:
+        near(e, energies[0], 11)
+
+
+def case_plane():
+    n = 12
+    points = [(i / n, j / n) for j in range(n + 1) for i in range(4 * n + 1)]
+
+    def at(i, j):
+        return j * (4 * n + 1) + i
+
+    for quads in (False, True):
+        with open("plane.su2", "w") as f:
+            around = [(at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)) for j in range(n) for i in range(4 * n)]
+            cells = [(9, *q) if quads and k % 2 else t for k, q in enumerate(around)
+                     for t in ([(9, *q)] if quads and k % 2 else [(5, q[0], q[1], q[2]), (5, q[0], q[2], q[3])])]
+            f.write(f"NDIME= 2\nNELEM= {len(cells)}\n")
+            f.writelines(" ".join(map(str, c)) + "\n" for c in cells)
+            f.write(f"NPOIN= {len(points)}\n")
+            f.writelines("%.17g %.17g\n" % p for p in points)
+            f.write("NMARK= 0\n")
+        with open("plane.csv", "w") as f:
+            for v, (x, y) in enumerate(points):
+                if x in (0, 4):
+                    f.write("%d,%.17g,%.17g\n" % (v, 1.3 * x, y + 0.5 * (x == 4)))
+        task = ("deform", "plane.su2", "--pins", "plane.csv", "--stats", "s.json", "--tolerance", "1e-9")
+        serial(*task, "-o", "one.su2")
+        one = stats("s.json")
+        for processes in (1, 3):
+            run(*task, "-o", "all.su2", processes=processes)
+            s = stats("s.json")
+            near(s["energy"], one["energy"], 8)  # the serial one computes in float
+            assert s["pins_held"] and s["elements"] == len(cells) and s["element"] == ("mixed" if quads else "triangle")
+            serial("check", "all.su2")
+        assert stats_of_check("all.su2")["valid"]
+    run("smooth", "plane.su2", "-o", "smooth.su2", "--checkpoint", "so-far.su2")
+
+
+if __name__ == "__main__":
+    program.main(globals())
