@@ -31,7 +31,7 @@ io::volume_file cells_of_bar(int n)
     for (int k = 0; k < 4 * n; ++k)
     {
         const auto kind = k % 2 == 0 ? io::cell_kind::hexahedron : io::cell_kind::wedge;
-        auto& corners = file.cells.emplace_back(io::cell_block{kind, {}}).corners;
+        auto& corners = file.cells.emplace_back(io::impl::cell_block{kind, {}}).corners;
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)
             {

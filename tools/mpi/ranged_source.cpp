@@ -202,7 +202,7 @@ private:
     void require_rounded(const std::vector<std::array<vec3, 4>>& corners) const
     {
         std::int64_t flipped = 0;
-        for (const auto& c : corners) flipped += orient(c[0], c[1], c[2], c[3]).sign <= 0;
+        for (const auto& c : corners) flipped += impl::orient(c[0], c[1], c[2], c[3]).sign <= 0;
         flipped = all_.sum(flipped);
         all_.together(
             [&]

@@ -123,7 +123,7 @@ struct outcome_of_mending
     bool injective = false, held = true;
 };
 
-outcome_of_mending mend(const sheet& s, std::vector<vec2> x, const held_marks<2>& held = {})
+outcome_of_mending mend(const sheet& s, std::vector<vec2> x, const fixed_marks<2>& held = {})
 {
     const auto m = s.surface();
     const auto polygons = find_convex_polygons(m.cells(), s.polygon, m.points());
@@ -152,9 +152,9 @@ TEST_CASE("convex corners: quads of shaken maps become convex, and maps stay inj
 TEST_CASE("convex corners: fixed coordinates stay, and what they allow becomes convex")
 {
     const auto s = quads(24);
-    held_marks<2> held(s.points.size());
-    for (const idx v : s.border) held[static_cast<std::size_t>(v)] = held_marks<2>::every;
-    for (std::size_t v = 30; v < held.size(); v += 17) held[v] = v % 2 == 0 ? held_marks<2>::every : 1;
+    fixed_marks<2> held(s.points.size());
+    for (const idx v : s.border) held[static_cast<std::size_t>(v)] = fixed_marks<2>::every;
+    for (std::size_t v = 30; v < held.size(); v += 17) held[v] = v % 2 == 0 ? fixed_marks<2>::every : 1;
     const auto r = mend(s, shaken(s, 0.6, s.border), held);
     CHECK(r.before > 50);
     CHECK(r.after == 0);
@@ -166,8 +166,8 @@ TEST_CASE("convex corners: a corner that fixed vertices turn over stays, others 
 {
     const auto s = quads(8);
     auto x = s.seen_from_above();
-    held_marks<2> held(s.points.size());
-    for (const std::size_t v : {39u, 30u, 31u}) held[v] = held_marks<2>::every; // three corners of a quad
+    fixed_marks<2> held(s.points.size());
+    for (const std::size_t v : {39u, 30u, 31u}) held[v] = fixed_marks<2>::every; // three corners of a quad
     x[30] = {3.6, 3.6};                                                         // the one between the others
     x[42] = {6.4, 4.6}; // of another quad, and free
     const auto r = mend(s, x, held);

@@ -125,7 +125,7 @@ private:
         }
         const auto label = polygon_labels();
         const auto before = flat_;
-        held_marks<2> held(flat_.size());
+        fixed_marks<2> held(flat_.size());
         for (int round = 0; round < 2; ++round)
         {
             if (!convex_corners(charts_->surface, label, polygons_, held,
@@ -139,7 +139,7 @@ private:
                 if (std::equal(own, end, before.begin() + first(k)) || !overlaps_itself(*charts_, k, flat_)) continue;
                 std::copy(before.begin() + first(k), before.begin() + first(k + 1), own);
                 for_each_border_side(*charts_, static_cast<idx>(k),
-                                     [&](idx from, idx) { held[u(from)] = held_marks<2>::every; });
+                                     [&](idx from, idx) { held[u(from)] = fixed_marks<2>::every; });
             }
         }
     }

@@ -62,7 +62,7 @@ public:
                 [&]
                 {
                     if (m)
-                        ideal = std::make_unique<ideal_elements<Element>>(
+                        ideal = std::make_unique<taut::impl::ideal_elements<Element>>(
                             taut::impl::elements_with_edges<Element>(std::span(p.edges), 1.0, "edges"));
                 });
             resize(ideal.get(), whole / total(p, ideal ? ideal->measure : empty_));
@@ -171,7 +171,7 @@ private:
     }
 
     /// Multiplies measures by a factor.
-    static void resize(ideal_elements<Element>* ideal, double factor)
+    static void resize(taut::impl::ideal_elements<Element>* ideal, double factor)
     {
         if (!ideal) return;
         for (auto& inverse : ideal->inverse) inverse /= std::pow(factor, 1.0 / D);

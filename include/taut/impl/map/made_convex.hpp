@@ -24,7 +24,7 @@ inline map_result made_convex(const map_run& run, map_result r)
     const auto& m = run.in.surface;
     const auto polygons = find_convex_polygons(m.cells(), run.params.polygons, m.points());
     const auto proceed = [&run] { return run.clock.proceed(); };
-    const auto held_to = [&](const held_marks<2>& held)
+    const auto held_to = [&](const fixed_marks<2>& held)
     {
         auto x = r.uv;
         const bool changed = convex_corners(m, run.params.polygons, polygons, held, proceed).make_convex(x);
@@ -34,9 +34,9 @@ inline map_result made_convex(const map_run& run, map_result r)
     if (!x.empty() && run.params.no_overlap)
         if (const auto loops = boundary_loops(m, run.in.sides); boundary_crossings(loops, x) > 0)
         {
-            auto held = run.held.marks().empty() ? held_marks<2>(run.vertices()) : run.held.marks();
+            auto held = run.held.marks().empty() ? fixed_marks<2>(run.vertices()) : run.held.marks();
             for (const auto& loop : loops)
-                for (const idx v : loop) held[static_cast<std::size_t>(v)] = held_marks<2>::every;
+                for (const idx v : loop) held[static_cast<std::size_t>(v)] = fixed_marks<2>::every;
             x = held_to(held);
         }
     run.clock.spent(&map_seconds::solve);

@@ -130,7 +130,7 @@ public:
                 const auto H = hessian.read(h);
                 const auto along = d.data().read(h);
                 const auto g = corner_gradients.read_write(h);
-                h.parallel_for("held_product", cells_.size(),
+                h.parallel_for("fixed_product", cells_.size(),
                                [&](auto c)
                                {
                                    const auto cell = cells[c];

@@ -39,7 +39,7 @@ public:
     /// polygon: number of the polygon of each triangle; polygons: to be convex, as find_convex_polygons has them; held:
     /// coordinates that are not moved, or empty. All are referred to. proceed: asked before every step
     convex_corners(const mesh<triangle>& m, std::span<const idx> polygon, const convex_polygons& polygons,
-                   const held_marks<2>& held, std::function<bool()> proceed)
+                   const fixed_marks<2>& held, std::function<bool()> proceed)
         : mesh_(m),
           polygon_(polygon),
           polygons_(polygons),
@@ -166,7 +166,7 @@ private:
         std::vector<idx> vertices; // of the mesh
         std::vector<cell> cells;   // triangles, then corners
         std::size_t triangles = 0;
-        held_marks<2> held;
+        fixed_marks<2> held;
         map x;
         std::vector<target_shape<2>> shapes; // of the cells, as they are mapped
         std::vector<target_shape<2>> wanted; // of the cells, as they are in space, with their total area
@@ -200,9 +200,9 @@ private:
         {
             bits.push_back(held_.empty() ? std::uint8_t(0) : held_[u(v)]);
             for (const idx c : around_.row(v))
-                if (!std::binary_search(p.cells.begin(), p.cells.end(), c)) bits.back() = held_marks<2>::every;
+                if (!std::binary_search(p.cells.begin(), p.cells.end(), c)) bits.back() = fixed_marks<2>::every;
         }
-        part.held = held_marks<2>(std::move(bits));
+        part.held = fixed_marks<2>(std::move(bits));
         for (const idx k : p.corners)
         {
             const cell t = local(polygons_.corners[u(k)]);
@@ -343,7 +343,7 @@ private:
     const mesh<triangle>& mesh_;
     std::span<const idx> polygon_;
     const convex_polygons& polygons_;
-    const held_marks<2>& held_;
+    const fixed_marks<2>& held_;
     std::function<bool()> proceed_;
     std::vector<idx> number_; // of vertices in the piece at hand; -1: not in it
     csr around_, members_;    // triangles of vertices, of polygons

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/detail/byte_order.hpp>
+#include <taut/impl/io/file/byte_order.hpp>
 #include <taut/impl/io/io_error.hpp>
 #include <taut/impl/io/read_file.hpp>
 
