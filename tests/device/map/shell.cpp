@@ -207,8 +207,8 @@ TEST_CASE("shell: handles that turn far arrive in calls of a step each")
 
 TEST_CASE("shell: what cannot be a shell is refused")
 {
-    CHECK_THROWS_WITH_AS(thin_shell(test::single_triangle()), doctest::Contains("without a neighbour"), mesh_error);
-    CHECK_THROWS_AS(thin_shell(test::three_on_an_edge()), mesh_error);
+    CHECK_THROWS_WITH_AS(thin_shell{test::single_triangle()}, doctest::Contains("without a neighbour"), mesh_error);
+    CHECK_THROWS_AS(thin_shell{test::three_on_an_edge()}, mesh_error);
     CHECK_THROWS_AS(thin_shell(test::moebius(8)), mesh_error);
 
     const thin_shell shell(test::grid(3, 3));
