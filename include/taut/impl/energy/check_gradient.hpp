@@ -38,13 +38,8 @@ struct gradient_check
     explicit operator bool() const { return derivative() && isotropic() && barrier; }
 };
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Prints the faults in words.
-inline std::ostream& operator<<(std::ostream& out, const impl::gradient_check& c)
+inline std::ostream& operator<<(std::ostream& out, const gradient_check& c)
 {
     std::ostringstream text; // so that the user's stream keeps its format
     if (!c.derivative())
@@ -59,11 +54,6 @@ inline std::ostream& operator<<(std::ostream& out, const impl::gradient_check& c
     found.resize(found.size() - 2);
     return out << found;
 }
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// A rotation by random angles.
 template <int D, class Random>
