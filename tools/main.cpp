@@ -28,6 +28,7 @@
 #include "shared/help.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/other_way.hpp"
+#include "shared/printable.hpp"
 #include "shared/writing.hpp"
 
 namespace taut::tools
@@ -40,7 +41,8 @@ int fail(exit_code code, const std::string& what, const std::string& remedy = {}
 {
     // Errors of devices have several lines: what was seen, or a compiler's log.
     const bool one_line = what.find('\n') == std::string::npos;
-    std::cerr << "taut: error: " << what << (remedy.empty() ? "" : (one_line ? "; " : "\n") + remedy) << '\n';
+    std::cerr << "taut: error: " << printable(what) << (remedy.empty() ? "" : (one_line ? "; " : "\n") + remedy)
+              << '\n';
     return to_int(code);
 }
 
@@ -192,7 +194,7 @@ int main(int argc, char** argv)
     }
     catch (const std::exception& e)
     {
-        std::cerr << "taut: internal error: " << e.what() << '\n';
+        std::cerr << "taut: internal error: " << taut::tools::printable(e.what()) << '\n';
         return 1;
     }
 }

@@ -21,6 +21,8 @@ _READ = "fiu"  # kinds of numbers that the library reads where they lie
 def _numbers(name: str, value: Any) -> Array:
     try:
         a = np.asarray(value)
+        if a.dtype.kind == "c":
+            raise TypeError("complex ones")
         if a.dtype.kind not in _READ + "b" or not a.dtype.isnative or a.dtype.itemsize not in (1, 2, 4, 8):
             a = a.astype(np.float64)
         elif a.dtype.kind == "f" and a.dtype.itemsize == 2:
@@ -28,6 +30,11 @@ def _numbers(name: str, value: Any) -> Array:
     except (TypeError, ValueError) as e:
         raise ParameterError(f"{name}: these are no numbers: {e}", field=name) from None
     return a
+
+
+def array(name: str, value: Any) -> Floats:
+    """Doubles of any shape."""
+    return _numbers(name, value).astype(np.float64, copy=False)
 
 
 def _first(bad: Array) -> tuple[int, ...]:

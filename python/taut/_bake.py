@@ -22,10 +22,20 @@ _NAMES = {"old": "image", "from": "old_uv", "to": "new_uv", "width": "size", "he
 
 
 def _corners(name: str, uv: ArrayLike) -> NDArray[Any]:
-    rows = np.asarray(uv, dtype=np.float64)
+    rows = _arrays.array(name, uv)
     if rows.ndim != 3 or rows.shape[1:] != (3, 2):
         raise ParameterError(f"{name}: has the shape {rows.shape}, but must be (m, 3, 2)", field=name)
     return rows.reshape(-1, 2)
+
+
+def _scalar(name: str, value: Any, kind: type) -> Any:
+    try:
+        if kind is int and value != int(value):
+            raise ValueError
+        return kind(value)
+    except (TypeError, ValueError, OverflowError):
+        words = "a whole number" if kind is int else "a number"
+        raise ParameterError(f"{name}: is {value!r}, but must be {words}", field=name) from None
 
 
 def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | tuple[int, int] | None = None,
@@ -63,16 +73,19 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
     >>> taut.bake(image, old, new).round(3).tolist()
     [[4.0, 2.0], [3.0, 1.0]]
     """
-    old = np.asarray(image, dtype=np.float64)
+    old = _arrays.array("image", image)
     if old.ndim not in (2, 3):
         raise ParameterError(f"image: has {old.ndim} axes, but must have 2 or 3", field="image")
+    if (np.isfinite(old) & (np.abs(old) > np.finfo(np.float32).max)).any():
+        raise ParameterError("image: has numbers beyond single precision; scale them", field="image")
     options: dict[str, Any] = {"height": old.shape[0], "width": old.shape[1],
                                "channels": old.shape[2] if old.ndim == 3 else 1, "filter": filter, "wrap": wrap,
-                               "samples": int(samples), "gutter": math.inf if gutter is None else float(gutter)}
+                               "samples": _scalar("samples", samples, int),
+                               "gutter": math.inf if gutter is None else _scalar("gutter", gutter, float)}
     if size is not None:
         both: Any = (size, size) if np.ndim(size) == 0 else size
         try:
-            width, height = (int(n) for n in both)
+            width, height = (_scalar("size", n, int) for n in both)
         except (TypeError, ValueError):
             raise ParameterError(f"size: is {size!r}, but must be one number of texels, or (width, height)",
                                  field="size") from None

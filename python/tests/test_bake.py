@@ -61,3 +61,25 @@ def test_errors_name_arguments_of_python(torus):
         with pytest.raises(taut.ParameterError) as caught:
             taut.bake(*arguments, **options)
         assert caught.value.field == field and str(caught.value).startswith(f"{field}: "), str(caught.value)
+
+
+@pytest.mark.parametrize(("field", "value"), [
+    ("image", "x"), ("image", [[1, 2], [3]]), ("image", np.zeros((2, 2), complex)), ("image", np.full((2, 2), 1e300)),
+    ("image", [[object()]]), ("image", np.zeros((0, 4))), ("old_uv", None), ("new_uv", "a"), ("size", float("nan")),
+    ("size", 2.5), ("size", "12"), ("size", (1 << 40, 1)), ("samples", None), ("samples", 1.5), ("samples", 2**70),
+    ("samples", float("nan")), ("gutter", "a"), ("gutter", [1]), ("gutter", -1)])
+def test_what_no_argument_can_be_is_named(field, value):
+    uv = np.array([[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]], float)
+    arguments = {"image": np.zeros((3, 4)), "old_uv": uv, "new_uv": uv, field: value}
+    with pytest.raises(taut.ParameterError, match=rf"^{field}\b") as e:
+        taut.bake(**arguments)
+    assert e.value.field == field
+
+
+def test_places_that_floats_do_not_tell_apart_are_refused():
+    uv = np.array([[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]], float)
+    assert np.isfinite(taut.bake(np.zeros((3, 4)), uv * 1e6, uv)).all()
+    for large in (1e8, 1e39, 1e300):
+        with pytest.raises(taut.ParameterError, match="^old_uv: triangle 0 reaches over"):
+            taut.bake(np.zeros((3, 4)), uv * large, uv)
+    assert np.isfinite(taut.bake(np.zeros((3, 4)), uv + 2.0**50, uv)).all()  # far away, but not large

@@ -440,6 +440,80 @@ def test_images_of_few_bytes():
     (FOLDER / "few.jpg").write_bytes(b"\xff\xd8\xff\xc0" + struct.pack(">H", 2 + len(frame)) + frame + bytes(300))
     for name in ("few.png", "few.jpg"):
         assert "damaged or cut off" in run("bake", "old.obj", "new.obj", "--texture", name, "-o", "x.png", code=3), name
+    whole = png(5, 4, 3, lambda u, v: (u, v, 0.5))
+    long = whole.index(b"IDAT") - 4  # a chunk that says it has a gigabyte
+    (FOLDER / "few.png").write_bytes(whole[:long] + struct.pack(">I", 1 << 30) + whole[long + 4:])
+    assert "damaged or cut off" in run("bake", "old.obj", "new.obj", "--texture", "few.png", "-o", "x.png", code=3)
+    blank = png(1000, 600, 1, lambda u, v: (0.0,))  # as small as PNG gets
+    assert len(blank) < 1000 * 600 / 800
+    (FOLDER / "blank.png").write_bytes(blank)
+    run("bake", "old.obj", "new.obj", "--texture", "blank.png", "-o", "x.png", "--resolution", "64", "--quiet")
+
+
+def exr(width, height, channels, kind="f", window=None, tiled=0):
+    """An EXR file without compression; channels: {name: number of i, j}, j from the top."""
+    code = {"I": 0, "e": 1, "f": 2}[kind]
+    names = sorted(channels)
+    attribute = lambda name, of, data: name.encode() + b"\0" + of.encode() + b"\0" + struct.pack("<i", len(data)) + data
+    box = struct.pack("<4i", *(window or (0, 0, width - 1, height - 1)))
+    listed = b"".join(n.encode() + b"\0" + struct.pack("<iB3xii", code, 0, 1, 1) for n in names) + b"\0"
+    head = struct.pack("<ii", 20000630, 2 | (0x200 if tiled else 0)) + attribute("channels", "chlist", listed)
+    head += attribute("compression", "compression", b"\0") + attribute("dataWindow", "box2i", box)
+    head += attribute("displayWindow", "box2i", box) + attribute("lineOrder", "lineOrder", b"\0")
+    head += attribute("pixelAspectRatio", "float", struct.pack("<f", 1)) + attribute("screenWindowCenter", "v2f", bytes(8))
+    head += attribute("screenWindowWidth", "float", struct.pack("<f", 1))
+    head += attribute("tiles", "tiledesc", struct.pack("<IIB", tiled, tiled, 0)) if tiled else b""
+    row = lambda j, i0, i1: b"".join(struct.pack("<" + kind, channels[n](i, j)) for n in names for i in range(i0, i1))
+    if tiled:
+        blocks = []
+        for y in range(0, height, tiled):
+            for x in range(0, width, tiled):
+                data = b"".join(row(j, x, min(width, x + tiled)) for j in range(y, min(height, y + tiled)))
+                blocks.append(struct.pack("<5i", x // tiled, y // tiled, 0, 0, len(data)) + data)
+    else:
+        blocks = [struct.pack("<ii", j, len(row(j, 0, width))) + row(j, 0, width) for j in range(height)]
+    at, offsets = len(head) + 1 + 8 * len(blocks), b""
+    for block in blocks:
+        offsets += struct.pack("<Q", at)
+        at += len(block)
+    return head + b"\0" + offsets + b"".join(blocks)
+
+
+def test_exr_of_others():
+    """Files of tiles, of halves and with one channel are read as they are; what cannot be is refused by name."""
+    step = lambda i, j: (i + 2 * j) / 32
+    (FOLDER / "probe.exr").write_bytes(exr(2, 2, {"Y": step}))
+    probe = subprocess.run([str(TAUT), "bake", "old.obj", "old.obj", "--texture", "probe.exr", "-o", "y.png", "--content", "data"],
+                           cwd=FOLDER, capture_output=True, text=True, timeout=120)
+    if "built without EXR" in probe.stderr or "built without (tinyexr)" in probe.stderr:
+        return
+    assert probe.returncode == 0, probe.stderr
+    colours = {"R": step, "G": lambda i, j: i / 16, "B": lambda i, j: j / 16}
+    made = {}
+    for name, data in (("float", exr(7, 5, colours)), ("half", exr(7, 5, colours, "e")), ("tiles", exr(7, 5, colours, "f", tiled=4)),
+                       ("alpha", exr(7, 5, {**colours, "A": lambda i, j: 1.0})), ("more", exr(7, 5, {**colours, "Z": step}))):
+        (FOLDER / "t.exr").write_bytes(data)
+        run("bake", "old.obj", "old.obj", "--texture", "t.exr", "-o", name + ".png", "--content", "data", "--filter", "nearest",
+            "--quiet")
+        image = Image((FOLDER / (name + ".png")).read_bytes())
+        made[name] = [image.at(i, j)[:3] for j in range(5) for i in range(7)]
+    assert all(m == made["float"] for m in made.values())
+    whole = exr(7, 5, colours)
+    for data, says in ((whole[:-40], "cannot be decoded"), (whole[:60], "is no EXR of one part"),
+                       (exr(7, 5, {n: (lambda i, j: 3) for n in "RGB"}, "I"), "whole numbers"),
+                       (exr(7, 5, {"X": step, "Y": step}), "no channels R, G, B"),
+                       (exr(7, 5, colours, window=(0, 0, 60000, 60000)), "damaged or cut off"),
+                       (exr(7, 5, colours, window=(-2**31, 0, 2**31 - 1, 4)), "pixels; 1 to 65536 are read")):
+        (FOLDER / "t.exr").write_bytes(data)
+        assert says in run("bake", "old.obj", "old.obj", "--texture", "t.exr", "-o", "x.png", code=3), says
+
+
+def test_places_that_reach_too_far():
+    """Texture coordinates whose texels floats do not tell apart are refused with the triangle."""
+    points, uv, faces, uv_faces = band()
+    write_obj("wide.obj", points, [(1e30 * u, v) for u, v in uv], faces, uv_faces)
+    told = run("bake", "wide.obj", "new.obj", "--texture", "in.png", "-o", "x.png", code=4)
+    assert "wide.obj: triangle 0 reaches over 2^24 texels" in told, told
 
 
 shutil.rmtree(FOLDER, ignore_errors=True)

@@ -193,6 +193,29 @@ def meshes_are_repaired_one_by_one(t):
     assert numbers["charts"] == 5, numbers["charts"]
 
 
+def mirroring_nodes_change_nothing(t):
+    """A node of negative scale turns the winding of what it draws, so that the front of each triangle stays its front; the map
+    is in the coordinates of the mesh."""
+    points, triangles = tube(9, 3)
+    triangles[5] = tuple(reversed(triangles[5]))
+    maps = []
+    for name, nodes in (("plain", [{}]), ("scale", [{"scale": [-2, 2, 2]}]), ("both", [{}, {"scale": [1, -1, 1]}]),
+                        ("matrix", [{"matrix": [0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}])):
+        b = Builder()
+        b.mesh(points, triangles, **nodes[0])
+        b.json["nodes"] += [{"mesh": 0, **node} for node in nodes[1:]]
+        b.json["scenes"][0]["nodes"] = list(range(len(nodes)))
+        t.write(name + ".glb", b.glb())
+        numbers = t.stats("atlas", name + ".glb", "-o", name + ".out.glb", "--repair")
+        assert [r["fault"] for r in numbers["surfaces"][0]["repairs"]] == ["inconsistent_orientation"], numbers["surfaces"]
+        out = Model(t, name + ".out.glb")
+        require_kept(Model(t, name + ".glb"), out)
+        assert out.json["nodes"] == b.json["nodes"]
+        maps.append([attributes["TEXCOORD_0"] for _, _, attributes, _ in out.triangles()])
+    assert all(m == maps[0] for m in maps)
+    assert sum(area2(*x) <= 0 for x in Model(t, "plain.out.glb").upwards()) == 1, "but the one that was turned over"
+
+
 def in_space(model):
     """The triangles of a new model, through its node."""
     node = model.json["nodes"][0]
@@ -406,6 +429,6 @@ def small_files_take_little(t):
     assert Model(t, "out.glb").json["extras"] == b.json["extras"]
 
 
-main(left_out_triangles_cover_nothing, meshes_are_repaired_one_by_one, new_models_keep_their_shape,
+main(left_out_triangles_cover_nothing, meshes_are_repaired_one_by_one, mirroring_nodes_change_nothing, new_models_keep_their_shape,
      what_floats_flatten_is_told, pinned_charts_hold_bit_for_bit, pinned_charts_of_fractions_hold, what_is_kept_stays,
      nothing_outside_the_folder_is_read, no_file_beside_is_lost, small_files_take_little)

@@ -272,6 +272,20 @@ def far_pins(run):
     run("unwrap", "in.obj", "-o", "out.obj", "--pins", "near.csv", code=(0, 6))
 
 
+def digits_of_ply(run):
+    """What a PLY file declares `float` is read by its digits in text, and as the float that it is in binary."""
+    values = [(0.1, 0.2, 0.3), (16777217.2, 0.0, 1.30000001), (1.1, 1e-46, 0.0)]
+    head = "ply\nformat %s 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n" \
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    run.write("text.ply", head % "ascii" + "".join("%r %r %r\n" % v for v in values) + "3 0 1 2\n")
+    run.write("binary.ply", (head % "binary_little_endian").encode() + b"".join(struct.pack("<3f", *v) for v in values)
+              + struct.pack("<B3i", 3, 0, 1, 2))
+    for name, expected in (("text", values), ("binary", [struct.unpack("<3f", struct.pack("<3f", *v)) for v in values])):
+        run("atlas", name + ".ply", "-o", name + ".obj")
+        points = read_obj(run.read(name + ".obj"))[0]
+        assert [tuple(map(float, p)) for p in points] == expected, points
+
+
 def encodings(run):
     """What is no text that is read is named."""
     for codec in ("utf-16", "utf-16-le", "utf-16-be"):
@@ -360,4 +374,4 @@ def what_faces_are_not(run):
 
 
 if __name__ == "__main__":
-    main(names_with_backslash, what_faces_are_not, old_texture_coordinates, unused_vertices, unused_in_any_format, last_digits, unit_square, left_out, far_pins, encodings, counts_times_counts)
+    main(names_with_backslash, what_faces_are_not, old_texture_coordinates, unused_vertices, unused_in_any_format, last_digits, unit_square, left_out, far_pins, digits_of_ply, encodings, counts_times_counts)

@@ -13,6 +13,31 @@ wound_fan()
     }'
 }
 
+# two_squares X0 Y0 X1 Y1: the unit square as its own map, and another one with this map.
+two_squares()
+{
+    printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 6 1 0\nv 5 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n'
+    printf 'vt %s %s\nvt %s %s\nvt %s %s\nvt %s %s\n' "$1" "$2" "$3" "$2" "$3" "$4" "$1" "$4"
+    printf 'f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/5 6/6 7/7\nf 5/5 7/7 8/8\n'
+}
+
+# A flat ring of eight quads that is cut open, as its own map.
+slit_ring()
+{
+    awk 'BEGIN {
+        turn = 8 * atan2(1, 1); n = 8
+        for (k = 0; k <= n; ++k) for (r = 1; r <= 2; ++r) {
+            a = turn * (k % n) / n
+            printf "v %.17g %.17g 0\nvt %.17g %.17g\n", r * cos(a), r * sin(a), r * cos(a), r * sin(a)
+        }
+        for (k = 0; k < n; ++k) {
+            a = 2 * k + 1
+            printf "f %d/%d %d/%d %d/%d\n", a, a, a + 1, a + 1, a + 3, a + 3
+            printf "f %d/%d %d/%d %d/%d\n", a, a, a + 3, a + 3, a + 2, a + 2
+        }
+    }'
+}
+
 # wound_problem FIXED: the same as a problem whose first FIXED vertices are fixed.
 wound_problem()
 {
@@ -64,6 +89,28 @@ test_eval()
     cp out half.json
     keys half.json atlas.overlap_area
     says values '^atlas.overlap_area=0\.5'
+
+    # What overlaps has an area in common: charts that touch have none, those that coincide, or lie within others, have.
+    two_squares 1 0 2 1 >touching.obj
+    expect 0 eval touching.obj
+    says out '^boundary +2 loops, [1-9].* overlap or touch' '^overlapping +no two triangles'
+    two_squares 1 1 2 2 >corners.obj
+    expect 0 eval corners.obj
+    says out '^overlapping +no two triangles'
+    two_squares 0 0 1 1 >stacked.obj
+    expect 0 eval stacked.obj
+    says out '^overlapping +2 pairs of triangles: 0-2, 1-3$'
+    two_squares 0.25 0.5 0.5 0.75 >within.obj
+    expect 0 eval within.obj
+    says out '^boundary +2 loops, 0 crossings$' '^overlapping +[1-9].* pairs? of triangles'
+    two_squares 0.9999999999999999 0 2 1 >by_an_ulp.obj # which no sample sees
+    expect 0 eval by_an_ulp.obj --json
+    cp out by_an_ulp.json
+    keys by_an_ulp.json overlapping_pairs all_overlaps_counted overlapping_ids.0.0 atlas.overlap_area
+    says values '^overlapping_pairs=[1-9]' '^overlapping_ids.0.0=0$' '^atlas.overlap_area=0(\.0+)?$'
+    slit_ring >ring.obj # both sides of the slit lie on each other
+    expect 0 eval ring.obj
+    says out '^boundary +1 loop, [1-9]' '^overlapping +no two triangles'
 
     # A branch point: no triangle is flipped, but the map winds twice around vertex 0.
     wound_fan >wound.obj

@@ -22,5 +22,11 @@ test_input()
     printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n' >short.off
     expect 3 unwrap short.off -o out.obj
     error_says 'short.off'
+    # What a terminal would obey does not reach it.
+    printf 'v \033[31mX\302\2332J 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >escape.obj
+    expect 3 unwrap escape.obj -o out.obj
+    error_says "found '\\?\\[31mX\\?2J'"
+    expect 3 check escape.obj
+    says out "found '\\?\\[31mX\\?2J'"
     absent out.obj
 }

@@ -273,7 +273,7 @@ def idle(path):
         until(lambda: not isinstance(p.socket(), int))
 
 
-def until(holds, seconds=60):
+def until(holds, seconds=300):
     end = time.monotonic() + seconds
     while not (value := holds()):
         assert time.monotonic() < end, "still not so"
@@ -309,7 +309,7 @@ mv {told}.new {told}
         until(lambda: not open(f"/proc/{p.process.pid}/task/{p.process.pid}/children").read().split())
         assert os.path.exists(file) and not isinstance(p.socket(), int)
         p.process.send_signal(signal.SIGINT)
-        assert p.process.wait(timeout=60) in (0, 130) and not os.path.exists(os.path.dirname(file))
+        assert p.process.wait(timeout=300) in (0, 130) and not os.path.exists(os.path.dirname(file))
 
 
 def volume(path):

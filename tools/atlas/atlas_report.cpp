@@ -15,6 +15,7 @@
 #include <taut/impl/mesh/ideal.hpp>
 
 #include "shared/assessment.hpp"
+#include "shared/printable.hpp"
 #include "shared/repair_report.hpp"
 #include "shared/report_files.hpp"
 #include "shared/run_clock.hpp"
@@ -120,7 +121,7 @@ void write_stats(io::atomic_file& file, const atlas_run_report& r, const atlas_o
 
 std::string text_of(const atlas_run_report& r, const atlas_options& o)
 {
-    for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
+    for (const auto& note : r.notes) std::cerr << "taut: note: " << printable(note) << '\n';
     const auto& a = r.atlas;
     labelled_lines lines;
     std::vector<std::string> files;

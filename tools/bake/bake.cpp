@@ -33,6 +33,7 @@
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
 #include "shared/png.hpp"
+#include "shared/printable.hpp"
 #include "shared/text_table.hpp"
 #include "shared/tile_names.hpp"
 #include "shared/writing.hpp"
@@ -102,7 +103,7 @@ nlohmann::ordered_json to_json(const bake_report& r, const bake_options& o)
 
 std::string text_of(const bake_report& r, const bake_options& o)
 {
-    for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
+    for (const auto& note : r.notes) std::cerr << "taut: note: " << printable(note) << '\n';
     labelled_lines lines;
     lines.add("surface", o.before + " -> " + o.after + ": " + count(r.triangles, "triangle", "triangles") +
                              (r.left_out > 0 ? ", " + count(r.left_out) + " left out" : ""));
@@ -181,9 +182,19 @@ private:
         const auto one = [&](const corner_uv& other, const impl::bake_frames& frames)
         {
             return [this, normals, frames, other = &other](const texture& image, const corner_uv& own,
-                                                           const bake_params& how) {
-                return normals ? bake_normals(*queue_, image, frames, own, *other, how)
-                               : bake(*queue_, image, own, *other, how);
+                                                           const bake_params& how)
+            {
+                try
+                {
+                    return normals ? bake_normals(*queue_, image, frames, own, *other, how)
+                                   : bake(*queue_, image, own, *other, how);
+                }
+                catch (const parameter_error& e) // of what the files have
+                {
+                    if (e.field() != "from") throw;
+                    throw unsuitable_input((&own == &new_.uv ? new_.path : old_.path) + ": " +
+                                           std::string(e.what()).substr(std::string("parameter from: ").size()));
+                }
             };
         };
         std::map<idx, baked_texture> result;
@@ -239,7 +250,10 @@ private:
 
     void note(const std::string& name, texture_content content, const std::map<idx, baked_texture>& baked)
     {
-        baked_report told{.name = name, .content = content, .tiles = baked.size()};
+        baked_report told;
+        told.name = name;
+        told.content = content;
+        told.tiles = baked.size();
         for (const auto& [tile, one] : baked)
         {
             told.width = one.image.width;

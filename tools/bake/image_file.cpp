@@ -63,6 +63,34 @@ void take_rows(texture& image, const T* from, F f)
     }
 }
 
+/// Whether a PNG file is as long as its chunks say: memory is asked for by what they say.
+bool has_its_chunks(std::string_view bytes)
+{
+    constexpr std::size_t signature = 8, head = 8, sum = 4;
+    for (std::size_t at = signature; at + head <= bytes.size();)
+    {
+        std::size_t length = 0;
+        for (std::size_t k = 0; k < 4; ++k) length = length << 8 | static_cast<unsigned char>(bytes[at + k]);
+        if (length > bytes.size() - at - head) return false;
+        if (bytes.substr(at + 4, 4) == "IEND") return true;
+        at += head + length + sum;
+    }
+    return false;
+}
+
+/// Whether a PNG or JPEG file has the bytes that so many pixels take at least.
+bool has_bytes_for(std::string_view bytes, int width, int height)
+{
+    const auto w = static_cast<std::uint64_t>(width), h = static_cast<std::uint64_t>(height);
+    constexpr std::size_t depth = 24, colours = 25; // of PNG's first chunk
+    // JPEG spends a bit on 64 pixels at least, deflate a byte on 1032.
+    if (!bytes.starts_with("\x89PNG") || bytes.size() <= colours) return w * h <= 8 * 64 * bytes.size();
+    constexpr std::uint64_t numbers[] = {1, 0, 3, 1, 2, 0, 4}; // of a pixel, by the type of its colours
+    const auto type = std::min<std::size_t>(static_cast<unsigned char>(bytes[colours]), 6);
+    const auto bits = std::max<std::uint64_t>(1, numbers[type] * static_cast<unsigned char>(bytes[depth]));
+    return h * (1 + w * bits / 8) <= 1032 * bytes.size();
+}
+
 image_file read_with_stb(std::string_view bytes, const std::string& name)
 {
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -71,10 +99,9 @@ image_file read_with_stb(std::string_view bytes, const std::string& name)
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
     image_file file;
-    // Deflate makes at most 1032 bytes of one, of which each has 8 pixels; JPEG spends a bit on 64 pixels at least.
-    const std::uint64_t pixels_of_byte = bytes.starts_with("\x89PNG") ? 8 * 1032 : 8 * 64;
-    if (stbi_info_from_memory(data, size, &width, &height, &channels) != 0 &&
-        static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height) > pixels_of_byte * bytes.size())
+    if (bytes.starts_with("\x89PNG") && !has_its_chunks(bytes))
+        throw io::io_error(name, "ends within the image; the file is damaged or cut off, get or save it again");
+    if (stbi_info_from_memory(data, size, &width, &height, &channels) != 0 && !has_bytes_for(bytes, width, height))
         throw io::io_error(name, "has " + std::to_string(bytes.size()) + " bytes for " + std::to_string(width) + " x " +
                                      std::to_string(height) +
                                      " pixels; the file is damaged or cut off, get or save it again");
@@ -109,35 +136,121 @@ std::string exr_message(const char* error)
     return text;
 }
 
-image_file read_exr(std::string_view bytes, const std::string& name)
+/// An EXR file of one part. What tinyexr has made of it by then is freed when its reading fails, too.
+class exr_reader
 {
-    const auto* const data = reinterpret_cast<const unsigned char*>(bytes.data());
-    const char* error = nullptr;
-    EXRVersion version;
-    EXRHeader header;
-    InitEXRHeader(&header);
-    if (ParseEXRVersionFromMemory(&version, data, bytes.size()) != TINYEXR_SUCCESS || version.multipart != 0 ||
-        version.non_image != 0 ||
-        ParseEXRHeaderFromMemory(&header, &version, data, bytes.size(), &error) != TINYEXR_SUCCESS)
-        throw io::io_error(name, "is no EXR of one part that can be read: " + exr_message(error) + "; save it again");
-    const int count = header.num_channels;
-    bool alpha = false;
-    for (int c = 0; c < count; ++c) alpha = alpha || std::strcmp(header.channels[c].name, "A") == 0;
-    FreeEXRHeader(&header);
-    float* rgba = nullptr;
-    int width = 0, height = 0;
-    if (LoadEXRFromMemory(&rgba, &width, &height, data, bytes.size(), &error) != TINYEXR_SUCCESS)
-        throw io::io_error(name, "cannot be decoded: " + exr_message(error) + "; save it as one layer of R, G, B");
-    const std::unique_ptr<float, void (*)(void*)> owner(rgba, std::free);
-    const int channels = count == 1 ? 1 : alpha ? 4 : 3;
-    image_file file{{width, height, channels, {}}, image_numbers::floats};
-    std::vector<float> kept;
-    kept.reserve(file.image.size());
-    for (std::size_t n = 0; n < static_cast<std::size_t>(width) * static_cast<std::size_t>(height); ++n)
-        kept.insert(kept.end(), rgba + 4 * n, rgba + 4 * n + channels);
-    take_rows(file.image, kept.data(), [](float x) { return x; });
-    return file;
-}
+public:
+    exr_reader(std::string_view bytes, const std::string& name) : bytes_(bytes), name_(name)
+    {
+        InitEXRHeader(&header_);
+        InitEXRImage(&image_);
+    }
+    ~exr_reader()
+    {
+        FreeEXRImage(&image_);
+        FreeEXRHeader(&header_);
+    }
+    exr_reader(const exr_reader&) = delete;
+    exr_reader& operator=(const exr_reader&) = delete;
+
+    image_file read()
+    {
+        read_header();
+        const auto planes = find_channels();
+        image_.num_channels = header_.num_channels; // so that tinyexr frees all of them when it fails
+        const char* error = nullptr;
+        if (LoadEXRImageFromMemory(&image_, &header_, data(), bytes_.size(), &error) != TINYEXR_SUCCESS)
+        {
+            InitEXRImage(&image_); // it has freed what it had
+            throw io::io_error(name_, "cannot be decoded: " + exr_message(error) + "; save it as one layer of R, G, B");
+        }
+        const int channels = static_cast<int>(planes.size());
+        image_file file{{image_.width, image_.height, channels, {}}, image_numbers::floats};
+        std::vector<float> kept(file.image.size());
+        for (std::size_t c = 0; c < planes.size(); ++c) copy_plane(kept.data() + c, planes.size(), planes[c]);
+        take_rows(file.image, kept.data(), [](float x) { return x; });
+        return file;
+    }
+
+private:
+    const unsigned char* data() const { return reinterpret_cast<const unsigned char*>(bytes_.data()); }
+
+    void read_header()
+    {
+        EXRVersion version;
+        const char* error = nullptr;
+        if (ParseEXRVersionFromMemory(&version, data(), bytes_.size()) != TINYEXR_SUCCESS || version.multipart != 0 ||
+            version.non_image != 0 ||
+            ParseEXRHeaderFromMemory(&header_, &version, data(), bytes_.size(), &error) != TINYEXR_SUCCESS)
+            throw io::io_error(name_,
+                               "is no EXR of one part that can be read: " + exr_message(error) + "; save it again");
+        const auto extent = [](int low, int high) { return static_cast<std::int64_t>(high) - low + 1; };
+        const auto& window = header_.data_window;
+        const auto width = extent(window.min_x, window.max_x), height = extent(window.min_y, window.max_y);
+        constexpr std::int64_t most = 65536;
+        if (width < 1 || height < 1 || width > most || height > most)
+            throw io::io_error(name_, "is " + std::to_string(width) + " x " + std::to_string(height) +
+                                          " pixels; 1 to 65536 are read");
+        // No compression makes more than some 1032 bytes of one, as deflate does, and a number has two at least.
+        const auto numbers =
+            static_cast<std::uint64_t>(width * height) * static_cast<std::uint64_t>(header_.num_channels);
+        if (2 * numbers > 1100 * bytes_.size())
+            throw io::io_error(name_, "has " + std::to_string(bytes_.size()) + " bytes for " + std::to_string(width) +
+                                          " x " + std::to_string(height) +
+                                          " pixels; the file is damaged or cut off, get or save it again");
+    }
+
+    /// Numbers of the channels in the order of a texture; asks for floats.
+    std::vector<int> find_channels()
+    {
+        const auto number_of = [this](const char* name)
+        {
+            for (int c = 0; c < header_.num_channels; ++c)
+                if (std::strcmp(header_.channels[c].name, name) == 0) return c;
+            return -1;
+        };
+        std::vector<int> found = {0};
+        if (header_.num_channels != 1) found = {number_of("R"), number_of("G"), number_of("B")};
+        if (header_.num_channels < 1 || std::find(found.begin(), found.end(), -1) != found.end())
+            throw io::io_error(name_, "has no channels R, G, B, nor a single one; save it as one layer of R, G, B");
+        if (const int alpha = number_of("A"); header_.num_channels != 1 && alpha >= 0) found.push_back(alpha);
+        for (const int c : found)
+            if (header_.pixel_types[c] == TINYEXR_PIXELTYPE_UINT)
+                throw io::io_error(name_, "has whole numbers; save it as half or float");
+        for (int c = 0; c < header_.num_channels; ++c)
+            if (header_.pixel_types[c] == TINYEXR_PIXELTYPE_HALF)
+                header_.requested_pixel_types[c] = TINYEXR_PIXELTYPE_FLOAT;
+        return found;
+    }
+
+    /// Copies a channel to every `step`-th number.
+    void copy_plane(float* to, std::size_t step, int channel) const
+    {
+        const auto width = static_cast<std::size_t>(image_.width), height = static_cast<std::size_t>(image_.height);
+        const auto plane = [channel](unsigned char** images) { return reinterpret_cast<float**>(images)[channel]; };
+        if (header_.tiled == 0)
+        {
+            for (std::size_t n = 0; n < width * height; ++n) to[n * step] = plane(image_.images)[n];
+            return;
+        }
+        const auto columns = static_cast<std::size_t>(header_.tile_size_x),
+                   rows = static_cast<std::size_t>(header_.tile_size_y);
+        for (int t = 0; t < image_.num_tiles; ++t)
+        {
+            const EXRTile& tile = image_.tiles[t];
+            const auto x = columns * static_cast<std::size_t>(tile.offset_x),
+                       y = rows * static_cast<std::size_t>(tile.offset_y);
+            for (std::size_t j = 0; j < rows && y + j < height; ++j)
+                for (std::size_t i = 0; i < columns && x + i < width; ++i)
+                    to[((y + j) * width + x + i) * step] = plane(tile.images)[j * columns + i];
+        }
+    }
+
+    std::string_view bytes_;
+    const std::string& name_;
+    EXRHeader header_;
+    EXRImage image_;
+};
 
 #endif
 
@@ -164,7 +277,7 @@ image_file read_image(std::string_view bytes, const std::string& name)
     if (bytes.starts_with(png) || bytes.starts_with(jpeg)) return read_with_stb(bytes, name);
     if (!bytes.starts_with(exr)) throw io::io_error(name, "is no PNG, JPEG or EXR; convert it to PNG");
 #ifdef TAUT_EXR
-    return read_exr(bytes, name);
+    return exr_reader(bytes, name).read();
 #else
     throw io::io_error(name, "is EXR, which this program was built without (tinyexr); convert it to PNG of 16 bits");
 #endif

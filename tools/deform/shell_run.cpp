@@ -31,6 +31,7 @@
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
+#include "shared/printable.hpp"
 #include "shared/stages.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
@@ -221,8 +222,8 @@ nlohmann::ordered_json shell_run::json() const
 
 std::string shell_run::text() const
 {
-    for (const auto& note : run_.notes) std::cerr << "taut: note: " << note << '\n';
-    if (!run_.pins_held && !run_.reason.empty()) std::cerr << "taut: note: " << run_.reason << '\n';
+    for (const auto& note : run_.notes) std::cerr << "taut: note: " << printable(note) << '\n';
+    if (!run_.pins_held && !run_.reason.empty()) std::cerr << "taut: note: " << printable(run_.reason) << '\n';
     labelled_lines lines;
     lines.add("surface", options_.input + ": " + count(vertices_, "vertex", "vertices") + ", " +
                              count(triangles_, "triangle", "triangles") + ", " + count(pins_) + " vertices held");

@@ -14,8 +14,10 @@
 
 #include "commands.hpp"
 #include "eval/atlas_measures.hpp"
+#include "eval/overlapping.hpp"
 #include "shared/assessment.hpp"
 #include "shared/failure.hpp"
+#include "shared/printable.hpp"
 #include "shared/report_files.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
@@ -91,6 +93,7 @@ exit_code evaluate(const eval_options& options)
     const auto& surface = cut ? cut->surface : file.surface;
     take_polygons(a, impl::find_convex_polygons(surface.cells(), polygons, surface.points()),
                   cut ? cut->uv : file.vertex_texcoords());
+    auto overlapping = find_overlapping(surface.cells(), cut ? cut->uv : file.vertex_texcoords());
     const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
     a.vertices = file.surface.vertex_count();
     a.notes.insert(a.notes.begin(), file.notes.begin(), file.notes.end());
@@ -99,6 +102,8 @@ exit_code evaluate(const eval_options& options)
         a.notes.push_back(taut::impl::list_ids("triangle", "triangles", gone) +
                           " without texture coordinates: left out");
         for (idx& c : a.quality.flips.ids) c = kept[static_cast<std::size_t>(c)];
+        for (auto& pair : overlapping.first)
+            for (idx& c : pair) c = kept[static_cast<std::size_t>(c)];
     }
     const auto& flips = a.quality.flips;
     const auto measures = measure_atlas(file, cut ? &*cut : nullptr);
@@ -117,6 +122,7 @@ exit_code evaluate(const eval_options& options)
         json["branch_points"] = flips.branched;
         json["branch_point_ids"] = flips.branch_ids;
         add_polygons(json, a);
+        add_overlapping(json, overlapping);
         json["min_det"] = finite(flips.min_det);
         json["max_det"] = finite(flips.max_det);
         json["quality"] = to_json(a);
@@ -125,12 +131,13 @@ exit_code evaluate(const eval_options& options)
         write_standard_output(text_of(json));
         return exit_code::valid;
     }
-    for (const auto& note : a.notes) std::cerr << "taut: note: " << note << '\n';
+    for (const auto& note : a.notes) std::cerr << "taut: note: " << printable(note) << '\n';
     labelled_lines lines;
     lines.add("mesh", options.input + ": " + count(static_cast<std::size_t>(a.vertices), "vertex", "vertices") + ", " +
                           count(flips.elements, "triangle", "triangles") +
                           (seam_vertices > 0 ? ", " + count(seam_vertices, "vertex", "vertices") + " on seams" : ""));
     describe_validity(lines, a);
+    describe(lines, overlapping);
     if (measures) describe(lines, *measures);
     std::ostringstream out;
     out << lines;

@@ -30,6 +30,7 @@
 #include "shared/help.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/outputs.hpp"
+#include "shared/printable.hpp"
 
 namespace taut::tools::mpi
 {
@@ -139,7 +140,7 @@ bool all_are_here(const communicator& all)
 
 void print(const std::string& message)
 {
-    std::cerr << "taut-mpi: error: " << message << std::endl;
+    std::cerr << "taut-mpi: error: " << printable(message) << std::endl;
 }
 
 /// One message and one code for all: those of the first process that failed by itself.

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <sstream>
 
+#include "shared/printable.hpp"
 #include "shared/report_files.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/text_table.hpp"
@@ -101,8 +102,8 @@ nlohmann::ordered_json to_json(const mpi_report& r, const mpi_options& o)
 std::string text_of(const mpi_report& r, const mpi_options& o)
 {
     const dist::report& run = r.run;
-    for (const auto& note : run.notes) std::cerr << "taut-mpi: note: " << note << '\n';
-    if (!run.pins_held && !run.reason.empty()) std::cerr << "taut-mpi: note: " << run.reason << '\n';
+    for (const auto& note : run.notes) std::cerr << "taut-mpi: note: " << printable(note) << '\n';
+    if (!run.pins_held && !run.reason.empty()) std::cerr << "taut-mpi: note: " << printable(run.reason) << '\n';
     std::uint64_t memory = 0;
     for (const auto& p : r.processes) memory = std::max(memory, p.peak_memory);
     labelled_lines lines;

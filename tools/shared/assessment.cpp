@@ -164,7 +164,7 @@ void describe_validity(labelled_lines& lines, const assessment& a)
     lines.add("boundary", count(a.boundaries, "loop", "loops") + ", " +
                               (a.crossings ? std::string(a.crossings->all ? "" : "at least ") +
                                                  count(a.crossings->pairs, "crossing", "crossings") +
-                                                 (a.crossings->pairs > 0 ? ": the flat parts overlap" : "")
+                                                 (a.crossings->pairs > 0 ? ": the flat parts overlap or touch" : "")
                                            : "crossings unknown"));
 }
 

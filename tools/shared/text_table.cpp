@@ -5,6 +5,8 @@
 
 #include <picture/format.hpp>
 
+#include "shared/printable.hpp"
+
 namespace taut::tools
 {
 
@@ -41,7 +43,7 @@ std::ostream& operator<<(std::ostream& out, const labelled_lines& lines)
     std::size_t width = 0;
     for (const auto& line : lines.lines_) width = std::max(width, line.label.size());
     for (const auto& [label, text] : lines.lines_)
-        out << label << std::string(width - label.size() + 2, ' ') << text << '\n';
+        out << label << std::string(width - label.size() + 2, ' ') << printable(text) << '\n';
     return out;
 }
 
@@ -62,7 +64,7 @@ std::ostream& operator<<(std::ostream& out, const text_table& table)
             line += k == 0 ? row[k] + gap : "  " + gap + row[k];
         }
         line.erase(line.find_last_not_of(' ') + 1);
-        out << line << '\n';
+        out << printable(line) << '\n';
     }
     return out;
 }

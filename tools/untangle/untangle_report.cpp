@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "shared/assessment.hpp"
+#include "shared/printable.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/stages.hpp"
 #include "shared/text_table.hpp"
@@ -62,7 +63,7 @@ nlohmann::ordered_json to_json(const untangle_report& r, const untangle_options&
 
 std::string text_of(const untangle_report& r, const untangle_options& o)
 {
-    for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
+    for (const auto& note : r.notes) std::cerr << "taut: note: " << printable(note) << '\n';
     labelled_lines lines;
     lines.add("problem", o.input + ": " + count(r.vertices, "vertex", "vertices") + ", " + r.cells + ", " +
                              count(r.pinned) + " vertices pinned");

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "shared/interrupt.hpp"
+#include "shared/printable.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/stages.hpp"
 #include "shared/text_table.hpp"
@@ -182,7 +183,7 @@ nlohmann::ordered_json to_json(const unwrap_report& r, const unwrap_options& o)
 
 std::string text_of(const unwrap_report& r, const unwrap_options& o)
 {
-    for (const auto& note : r.notes) std::cerr << "taut: note: " << note << '\n';
+    for (const auto& note : r.notes) std::cerr << "taut: note: " << printable(note) << '\n';
     const auto& flips = r.after.quality.flips;
     const auto& s = r.map.solve;
     labelled_lines lines;

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "shared/assessment.hpp"
+#include "shared/printable.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/stages.hpp"
 #include "shared/text_table.hpp"
@@ -57,8 +58,8 @@ nlohmann::ordered_json to_json(const deform_report& r, const shape_options& o)
 std::string text_of(const deform_report& r, const shape_options& o)
 {
     const session_report& run = r.run;
-    for (const auto& note : run.notes) std::cerr << "taut: note: " << note << '\n';
-    if (!run.pins_held && !run.reason.empty()) std::cerr << "taut: note: " << run.reason << '\n';
+    for (const auto& note : run.notes) std::cerr << "taut: note: " << printable(note) << '\n';
+    if (!run.pins_held && !run.reason.empty()) std::cerr << "taut: note: " << printable(run.reason) << '\n';
     labelled_lines lines;
     lines.add("mesh", o.input + ": " + count(r.vertices, "vertex", "vertices") + ", " + r.cells +
                           (o.smoothing ? "" : ", " + count(r.pins) + " vertices held"));

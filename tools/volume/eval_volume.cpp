@@ -14,6 +14,7 @@
 
 #include "shared/assessment.hpp"
 #include "shared/outputs.hpp"
+#include "shared/printable.hpp"
 #include "shared/report_files.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
@@ -147,7 +148,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
         write_standard_output(text_of(json));
         return;
     }
-    for (const auto& note : notes) std::cerr << "taut: note: " << note << '\n';
+    for (const auto& note : notes) std::cerr << "taut: note: " << printable(note) << '\n';
     labelled_lines lines;
     lines.add("mesh", options.input + ": " + count(input.file().points.size(), "vertex", "vertices") + ", " +
                           count_cells(input.file(), D));

@@ -205,6 +205,34 @@ TEST_CASE("pack: several tiles hold larger charts, and each is used")
     CHECK(*std::min_element(charts.begin(), charts.end()) > 0);
 }
 
+TEST_CASE("pack: tiles that no chart can be in change nothing, and cost nothing")
+{
+    for (const int count : {1, 2, 3, 17})
+    {
+        const auto s = support::ragged_charts(count, 30, 2, 9);
+        taut::pack_params params;
+        params.tiles = count;
+        const auto p = packed(s, params);
+        CHECK(holds(s, p));
+        params.tiles = 1000;
+        const auto q = packed(s, params);
+        CHECK(p.scale == q.scale);
+        CHECK(p.layouts == q.layouts);
+        for (std::size_t c = 0; c < p.places.size(); ++c)
+        {
+            CHECK(p.places[c].tile == q.places[c].tile);
+            CHECK(p.places[c].shift == q.places[c].shift);
+        }
+    }
+    // Where each chart has a tile of its own, the largest one fills it as if it were alone.
+    chart_set s;
+    s.add_rectangle(1, 1);
+    s.add_rectangle(0.3, 0.2);
+    taut::pack_params params;
+    params.tiles = 50;
+    CHECK(packed(s, params).scale > 0.98 * packed(squares(1)).scale);
+}
+
 TEST_CASE("pack: a density gives a chart more texels")
 {
     const auto s = squares(5);

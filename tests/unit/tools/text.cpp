@@ -7,12 +7,14 @@
 
 #include <picture/format.hpp>
 #include <picture/text.hpp>
+#include <shared/printable.hpp>
 
 #include "shapes.hpp"
 
 using namespace taut;
 using io::canvas;
 using io::rgb;
+using tools::printable;
 using namespace io::impl;
 
 namespace
@@ -124,6 +126,17 @@ TEST_CASE("format: numbers are short and independent of the locale")
     CHECK(format_count(999) == "999");
     CHECK(format_count(1000) == "1,000");
     CHECK(format_count(1513800) == "1,513,800");
+}
+
+TEST_CASE("printable: what terminals obey is replaced, all else stays")
+{
+    CHECK(printable("\x1B[31mred\x07\r") == "?[31mred??");
+    CHECK(printable("a\tb\nc \x7F") == "a\tb\nc ?");
+    CHECK(printable("K\xC3\xA4se \xE2\x82\xAC \xF0\x9F\x90\xAB") == "K\xC3\xA4se \xE2\x82\xAC \xF0\x9F\x90\xAB");
+    CHECK(printable("\xC2\x9B"
+                    "31m\xC2\xA0") == "?31m\xC2\xA0"); // CSI in one character
+    CHECK(printable("\x9B"
+                    "31m\xC3") == "?31m?");
 }
 
 TEST_CASE("format: XML text is escaped, broken UTF-8 and control characters are replaced")

@@ -27,7 +27,7 @@ struct baked_texture
 /// the nearest such texel. Where triangles overlap in the new atlas, the first one counts.
 ///
 /// from, to: old and new texture coordinates, one per corner of the same triangles, v upwards; a triangle with one that
-///           is not finite is left out
+///           is not finite is left out; one may not reach over 2^24 texels of the old texture
 /// Throws parameter_error for numbers that do not fit together, device_error.
 baked_texture bake(queue& q, const texture& old, std::span<const std::array<vec2, 3>> from,
                    std::span<const std::array<vec2, 3>> to, const bake_params& params = {});

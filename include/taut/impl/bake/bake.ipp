@@ -51,6 +51,17 @@ inline std::vector<float> places_in_texels(std::span<const std::array<vec2, 3>> 
     return numbers;
 }
 
+/// Throws parameter_error where floats cannot tell one texel from the next.
+inline void require_told_apart(const std::array<vec2, 3>& in_texels, std::size_t triangle)
+{
+    constexpr double most = 0x1p24;
+    for (const vec2& x : in_texels)
+        if (!(std::max(std::abs(x.x), std::abs(x.y)) <= most))
+            throw parameter_error("from", "triangle " + std::to_string(triangle) +
+                                              " reaches over 2^24 texels of the old texture or more, which floats do "
+                                              "not tell apart; correct its texture coordinates");
+}
+
 /// Places in the old texture, in its texels, near the unit square where it repeats: floats are finest there.
 inline std::vector<float> old_places(const bake_source& s, texture_wrap wrap)
 {
@@ -60,6 +71,7 @@ inline std::vector<float> old_places(const bake_source& s, texture_wrap wrap)
         vec2 shift = glm::floor(glm::min(t[0], glm::min(t[1], t[2])));
         if (wrap == texture_wrap::clamp || !all_finite(t)) shift = vec2(0.0);
         for (vec2& x : t) x = (x - shift) * vec2(s.old->width, s.old->height);
+        if (all_finite(t)) require_told_apart(t, static_cast<std::size_t>(&t - places.data()));
     }
     return places_in_texels(places);
 }

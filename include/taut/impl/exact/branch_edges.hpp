@@ -126,8 +126,8 @@ inline std::vector<std::array<idx, 2>> branch_edges(std::span<const std::array<i
         impl::vertex_link link;
     };
     std::map<edge, neighbourhood> suspicious;
-    for (std::size_t i = 1; i < crossed.size(); ++i)
-        if (crossed[i] == crossed[i - 1]) suspicious[crossed[i]];
+    for (auto at = crossed.begin(); (at = std::adjacent_find(at, crossed.end())) != crossed.end(); ++at)
+        suspicious[*at];
     if (suspicious.empty()) return {};
     for (std::size_t t = 0; t < cells.size(); ++t)
         turns.for_edges(t,

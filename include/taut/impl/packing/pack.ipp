@@ -32,7 +32,11 @@ class packer
 {
 public:
     packer(std::span<const piece> pieces, const pack_params& params, bool trial)
-        : pieces_(pieces), params_(params), trial_(trial), limits_(params.limits.time_limit, params.limits.observer)
+        : pieces_(pieces),
+          params_(params),
+          trial_(trial),
+          limits_(params.limits.time_limit, params.limits.observer),
+          tiles_(params.walls.empty() ? std::min(params.tiles, static_cast<int>(pieces.size())) : params.tiles)
     {
         for (const piece& p : pieces_)
         {
@@ -74,7 +78,7 @@ private:
     {
         const bool walled = !params_.walls.empty();
         const auto [corner, side, tile] = walled ? free_square() : tile_square{};
-        const auto shelves = lay_on_shelves(pieces_, walled ? 1 : params_.tiles, walled ? 0 : border_, gap_ / side);
+        const auto shelves = lay_on_shelves(pieces_, walled ? 1 : tiles_, walled ? 0 : border_, gap_ / side);
         const double scale = side * shelves.scale;
         for (std::size_t c = 0; c < pieces_.size(); ++c)
         {
@@ -176,7 +180,7 @@ private:
     /// share of the side.
     double estimated_side() const
     {
-        const double density = 0.75 * params_.tiles, share = gap_ / (1 - 2 * border_);
+        const double density = 0.75 * tiles_, share = gap_ / (1 - 2 * border_);
         const double half = share * length_ / (4 * density);
         return half + std::sqrt(half * half + area_ / density);
     }
@@ -187,39 +191,55 @@ private:
     {
         const std::size_t n = pieces_.size();
         const bool quick = n > 1500;
-        const idx fine = quick ? 1024 : std::clamp(static_cast<idx>(90 * std::sqrt(static_cast<double>(n))), 512, 2048);
+        const double in_one = static_cast<double>(n) / tiles_;
+        const idx fine = quick ? 1024 : std::clamp(static_cast<idx>(90 * std::sqrt(in_one)), 512, 2048);
         const idx cells = trial_ ? fine / 2 : fine;
         draw(cells / length, turns);
-        idx side = cells;
+        const idx narrowest = side_of_largest();
+        idx side = std::max(cells, narrowest);
         tile_layout best;
         double least = std::numeric_limits<double>::infinity();
         for (int k = 0; k < (quick || trial_ ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
         {
             const double most = 1.02 * side + 1; // has its padding, too, if the layout is a little larger
-            tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(most), cells_per_length_,
-                                    quick, limits_);
+            tile_layout l =
+                lay_out(pieces_, poses_, order_, side, tiles_, gap_in_cells(most), cells_per_length_, quick, limits_);
             ++packed_.layouts;
             if (!l.complete)
             {
                 side += side / 4;
                 continue;
             }
-            const double used = std::max(l.width, l.height), filled = (l.tiles - 1 + l.height / side) / params_.tiles;
+            const double used = std::max(l.width, l.height), filled = (l.tiles - 1 + l.height / side) / tiles_;
             if (used <= most && used < least)
             {
                 least = used;
                 best = std::move(l);
             }
-            side = std::max<idx>(8, static_cast<idx>(std::lround(side * std::sqrt(filled))));
+            if (side == narrowest) break;
+            side = std::max({idx{8}, narrowest, static_cast<idx>(std::lround(side * std::sqrt(filled)))});
         }
         if (!best.complete) return;
-        if (!trial_) reorder(best, least);
+        if (!trial_) reorder(best, least, narrowest);
         keep(best, least);
+    }
+
+    /// The least side of several tiles, in cells, at which each piece fits into one; 0 of a single tile, which is open.
+    idx side_of_largest() const
+    {
+        idx least = 0;
+        for (std::size_t c = 0; tiles_ > 1 && c < poses_.size(); ++c)
+        {
+            idx own = std::numeric_limits<idx>::max();
+            for (const pose& p : poses_[c]) own = std::min(own, std::max(p.mask.cells.width, p.mask.cells.height));
+            least = std::max(least, own);
+        }
+        return least;
     }
 
     /// Tries other orders near the best one, none twice, in a number of constant total time; of few pieces other poses
     /// of single ones, too, since the pose that lies lowest need not leave the best room to the others.
-    void reorder(tile_layout& best, double& least)
+    void reorder(tile_layout& best, double& least, idx narrowest)
     {
         constexpr std::size_t few = 16;
         const std::size_t n = pieces_.size(), tries = std::min<std::size_t>(100, 3000 / n), more = n <= few ? 120 : 0;
@@ -243,8 +263,9 @@ private:
                     if (j < n) std::swap(order[i], order[j]);
                 }
             const auto side = static_cast<idx>(least) - 1;
+            if (side < narrowest) return;
             if (n <= few && !tried.emplace(side, order, posed).second) continue;
-            tile_layout l = lay_out(pieces_, poses_, order, side, params_.tiles, gap_in_cells(1.02 * side + 1),
+            tile_layout l = lay_out(pieces_, poses_, order, side, tiles_, gap_in_cells(1.02 * side + 1),
                                     cells_per_length_, n > 1500, limits_, {}, {.only = posed});
             ++packed_.layouts;
             const double used = std::max(l.width, l.height);
@@ -324,6 +345,7 @@ private:
     const pack_params& params_;
     bool trial_;
     budget limits_;
+    idx tiles_; // that pieces can be in: one needs no second one
     double area_ = 0, length_ = 0;
     double gap_ = 0, border_ = 0; // in tiles
     double cells_per_length_ = 0, doubt_ = 0;
