@@ -68,7 +68,7 @@ STRATEGIES = [
     Strategy("pins drawn", "pins reached by a penalty continuation, coarse to fine",
              ("map/starts.hpp", "{ return run.uses_continuation(); },", "{ return run.uses_continuation() && !{off}; },")),
     Strategy("free map brought near", "pins on a free boundary untangled from the unconstrained map",
-             ("map/starts.hpp", "                !run.outline_pinned();\n", "                !run.outline_pinned() && !{off};\n")),
+             ("map/starts.hpp", "&& !run.outline_pinned();\n", "&& !run.outline_pinned() && !{off};\n")),
     Strategy("second start", "a barycentric start where that on levels is not certified",
              ("map/mapped.hpp", "if (first.certified || first.stopped || !start.coarse) return",
               "if (first.certified || first.stopped || !start.coarse || {off}) return")),

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,31 +15,6 @@
 
 namespace taut::impl
 {
-
-/// Makes a map of m of the user's coordinates: scaled to the surface's size where the boundary is free and nothing is
-/// constrained, reflected where they are mirrored as a whole. unit: from the user's lengths to those of m. Throws
-/// parameter_error for a wrong number.
-inline start_map given_map(const mesh<triangle>& m, const ideal_elements<triangle>& ideal,
-                           const parameterize_params& params, double unit, std::vector<std::string>& notes)
-{
-    if (params.initial.size() != m.points().size())
-        throw parameter_error("initial", std::to_string(params.initial.size()) + " coordinates for " +
-                                             std::to_string(m.points().size()) + " vertices");
-    start_map start;
-    start.uv = params.initial;
-    if (params.boundary == boundary_mode::free && params.constraints.empty())
-        bring_to_size(start.uv, std::accumulate(ideal.measure.begin(), ideal.measure.end(), 0.0));
-    else
-        for (vec2& p : start.uv) p *= unit;
-    start.assess(m, ideal);
-    if (start.flips.flipped == start.flips.elements && start.flips.max_det < 0)
-    {
-        for (vec2& p : start.uv) p.x = -p.x;
-        start.assess(m, ideal);
-        notes.push_back("the start was mirrored as a whole; u was negated");
-    }
-    return start;
-}
 
 /// Untangles a start with flips, or says why that failed. draft: initial guess, the start before pinned vertices were
 /// moved to their targets, or none.
@@ -132,42 +106,51 @@ inline run_start start_from(const map_run& run, start_map map)
 }
 
 /// The makers of initial maps; the last ones make them on the mesh itself.
-inline constexpr start_maker start_makers[] = {
-    {"given", [](const map_run& run) { return !run.params.initial.empty(); },
-     [](const map_run& run)
-     {
-         run_start start;
-         start.map = given_map(run.in.surface, run.in.ideal, run.params, run.in.unit, start.notes);
-         return fitted_start(run, std::move(start), true);
-     }},
-    {"coarse", [](const map_run& run) { return run.starts_coarse(); },
-     [](const map_run&)
-     {
-         run_start start;
-         start.coarse = true;
-         return start;
-     }},
-    {"penalty", [](const map_run& run) { return run.uses_continuation(); },
-     [](const map_run& run) { return penalty_continuation(run).make(); }},
-    {"free map",
-     [](const map_run& run)
-     {
-         return run.held.constrained() && run.params.initial.empty() && run.params.boundary == boundary_mode::free &&
-                !run.outline_pinned();
-     },
-     [](const map_run& run) { return start_from(run, {free_map(run)}); }},
-    {"conformal",
-     [](const map_run& run)
-     { return run.params.start == start_method::conformal && run.params.boundary == boundary_mode::free; },
-     [](const map_run& run) { return start_from(run, conformal_start(run.in.surface, run.in.sides)); }},
-    {"barycentric", [](const map_run&) { return true; },
-     [](const map_run& run)
-     {
-         run_start start;
-         start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric, elimination_solver(),
-                                     [&run] { return run.clock.proceed(); });
-         return fitted_start(run, std::move(start), false);
-     }}};
+inline std::span<const start_maker> start_makers()
+{
+    static constexpr start_maker all[] = {
+        {"given", [](const map_run& run) { return !run.params.initial.empty(); },
+         [](const map_run& run)
+         {
+             run_start start;
+             start.map = given_map(run.in.surface, run.in.ideal, run.params, run.in.unit, start.notes);
+             return fitted_start(run, std::move(start), true);
+         }},
+        {"coarse", [](const map_run& run) { return run.starts_coarse(); },
+         [](const map_run&)
+         {
+             run_start start;
+             start.coarse = true;
+             return start;
+         }},
+        {"penalty", [](const map_run& run) { return run.uses_continuation(); },
+         [](const map_run& run) { return penalty_continuation(run).make(); }},
+        {"free map",
+         [](const map_run& run)
+         {
+             return run.held.constrained() && run.params.initial.empty() &&
+                    run.params.boundary == boundary_mode::free && !run.outline_pinned();
+         },
+         [](const map_run& run)
+         {
+             start_map map;
+             map.uv = free_map(run);
+             return start_from(run, std::move(map));
+         }},
+        {"conformal",
+         [](const map_run& run)
+         { return run.params.start == start_method::conformal && run.params.boundary == boundary_mode::free; },
+         [](const map_run& run) { return start_from(run, conformal_start(run.in.surface, run.in.sides)); }},
+        {"barycentric", [](const map_run&) { return true; },
+         [](const map_run& run)
+         {
+             run_start start;
+             start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric, elimination_solver(),
+                                         [&run] { return run.clock.proceed(); });
+             return fitted_start(run, std::move(start), false);
+         }}};
+    return all;
+}
 
 inline constexpr std::size_t on_the_mesh = 2; ///< the first of these
 
@@ -175,7 +158,7 @@ inline constexpr std::size_t on_the_mesh = 2; ///< the first of these
 inline run_start make_start(const map_run& run, std::size_t first = 0)
 {
     run_start start;
-    for (const start_maker& maker : std::span(start_makers).subspan(first))
+    for (const start_maker& maker : start_makers().subspan(first))
     {
         if (!maker.applies(run)) continue;
         start.stopped = !run.clock.proceed();

@@ -8,7 +8,7 @@
 
 #include <taut/impl/exact/crossings.hpp>
 #include <taut/impl/map/map_run.hpp>
-#include <taut/impl/map/starts.hpp>
+#include <taut/impl/map/run_start.hpp>
 #include <taut/impl/start/robust.hpp>
 
 namespace taut::impl
