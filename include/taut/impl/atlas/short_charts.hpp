@@ -134,11 +134,7 @@ private:
                 sew_up(std::vector<char>(c_.energy_.size(), 1), false, limits);
         }
         if (!c_.report_.complete) return lay_unfinished();
-        if (!best->holds)
-        {
-            if (rough) part_borders(best->bad);
-            c_.keep_apart(best->bad);
-        }
+        if (!best->holds) c_.keep_apart(best->bad);
         if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
         best->bad.resize(c_.energy_.size(), 0);
         for (std::size_t k = 0; k < c_.energy_.size(); ++k)
@@ -147,26 +143,6 @@ private:
         if (!c_.report_.complete) lay_unfinished();
         if (const double mean = mean_energy(); c_.report_.complete && mean > c_.params_.charts.mean_distortion)
             c_.report_.notes.push_back(note_above(mean, rough));
-    }
-
-    /// Moves vertices of charts, one flag each, so that borders that meet are apart, where the way is short: those of
-    /// rough surfaces meet at many places, by little. Clears the flags of those for which that succeeds.
-    void part_borders(std::vector<char>& bad)
-    {
-        auto uv = c_.flat_;
-        const auto left = settle_charts(*c_.charts_, {}, uv, {});
-        const ideal_elements<triangle> ideal(c_.charts_->surface);
-        for (std::size_t k = 0; k < bad.size(); ++k)
-        {
-            if (!bad[k] || left[k] || !(c_.energy_[k] < std::numeric_limits<double>::infinity())) continue;
-            const double energy = area_and_energy(*c_.charts_, k, uv, ideal).second;
-            constexpr double most = 1.05; // of the energy before
-            if (!(energy <= most * c_.energy_[k])) continue;
-            std::copy(uv.begin() + c_.charts_->first_vertex[k], uv.begin() + c_.charts_->first_vertex[k + 1],
-                      c_.flat_.begin() + c_.charts_->first_vertex[k]);
-            c_.energy_[k] = energy;
-            bad[k] = 0;
-        }
     }
 
     /// Of a run that has ended: what has no good map becomes patches.
