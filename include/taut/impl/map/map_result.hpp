@@ -75,9 +75,9 @@ struct map_report
     std::vector<impl::untangle_stage_report> untangling; ///< stages that made the start injective
     std::optional<impl::overlap_report> overlap;            ///< with parameterize_params::no_overlap, if there is a map
     std::vector<idx> concave; ///< of parameterize_params::polygons: convex in space, but not in the map; ascending
-    double scale = 1;    ///< lengths of the map by those of the surface: other than 1 in the unit square
-    certificate flips;   ///< certificate of the returned map, exact: flips and branch points
-    solve::report solve; ///< on the mesh itself; energies are means over the elements, with the chosen weights
+    double scale = 1;         ///< lengths of the map by those of the surface: other than 1 in the unit square
+    certificate flips;        ///< certificate of the returned map, exact: flips and branch points
+    solve::report solve;      ///< on the mesh itself; energies are means over the elements, with the chosen weights
     impl::map_seconds seconds;
     impl::queue_counters counters; ///< launches, host waits and bytes of this run
 };

@@ -12,9 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/constrain/point_constraints.hpp>
 #include <taut/impl/core/counting_sort.hpp>
-#include <taut/impl/core/csr.hpp>
 #include <taut/impl/core/disjoint_sets.hpp>
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
