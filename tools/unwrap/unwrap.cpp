@@ -142,7 +142,8 @@ private:
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
-        const auto polygons = impl::find_convex_polygons(surface().cells(), file_->faces.of_triangles(), surface().points());
+        const auto polygons =
+            impl::find_convex_polygons(surface().cells(), file_->faces.of_triangles(), surface().points());
         command_.tell("measure");
         report_.seconds.quality = command_.clock.timed([&] { report_.assess(options_, params, surface(), uv_); });
         take_polygons(report_.after, polygons, uv_);

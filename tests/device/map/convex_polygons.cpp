@@ -41,7 +41,8 @@ struct hills
 
     std::size_t concave(const std::vector<vec2>& uv) const
     {
-        return taut::impl::find_concave(taut::impl::find_convex_polygons(surface.cells(), quad, surface.points()), uv).size();
+        return taut::impl::find_concave(taut::impl::find_convex_polygons(surface.cells(), quad, surface.points()), uv)
+            .size();
     }
 
     mesh<triangle> surface{{}, {}};

@@ -168,8 +168,8 @@ TEST_CASE("convex corners: a corner that fixed vertices turn over stays, others 
     auto x = s.seen_from_above();
     fixed_marks<2> held(s.points.size());
     for (const std::size_t v : {39u, 30u, 31u}) held[v] = fixed_marks<2>::every; // three corners of a quad
-    x[30] = {3.6, 3.6};                                                         // the one between the others
-    x[42] = {6.4, 4.6};                                                         // of another quad, and free
+    x[30] = {3.6, 3.6};                                                          // the one between the others
+    x[42] = {6.4, 4.6};                                                          // of another quad, and free
     const auto r = mend(s, x, held);
     CHECK(r.before == 2);
     CHECK(r.after == 1);

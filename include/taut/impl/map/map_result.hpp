@@ -73,7 +73,7 @@ struct map_report
     std::vector<vec2> pin_origins;          ///< pinned vertices in the start before they were moved to their targets
     std::vector<impl::stage_report> stages; ///< all stages, also unsuccessful ones, in their order in time
     std::vector<impl::untangle_stage_report> untangling; ///< stages that made the start injective
-    std::optional<impl::overlap_report> overlap;            ///< with parameterize_params::no_overlap, if there is a map
+    std::optional<impl::overlap_report> overlap;         ///< with parameterize_params::no_overlap, if there is a map
     std::vector<idx> concave; ///< of parameterize_params::polygons: convex in space, but not in the map; ascending
     double scale = 1;         ///< lengths of the map by those of the surface: other than 1 in the unit square
     certificate flips;        ///< certificate of the returned map, exact: flips and branch points

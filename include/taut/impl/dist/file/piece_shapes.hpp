@@ -38,7 +38,7 @@ inline std::vector<taut::impl::element_shape> shapes_of_cells(const mesh_piece<t
 /// Collective. Shapes of the cells of all processes. corners: of the simplices of the piece. The numbers of the worst
 /// are their places among all, by process.
 inline taut::impl::shape_quality piece_shapes(const communicator& all, const mesh_piece<tetrahedron>& piece,
-                                  const std::vector<std::array<vec3, 4>>& corners)
+                                              const std::vector<std::array<vec3, 4>>& corners)
 {
     const auto cells = shapes_of_cells(piece, corners);
     struct ranked
