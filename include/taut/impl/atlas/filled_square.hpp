@@ -127,8 +127,8 @@ private:
     /// these. longest: what it may count
     waist_cutting::cut next_cut(std::span<const char> seam, double longest)
     {
-        constexpr std::size_t charts_tried = 2, cuts_tried = 4; // those that waste most; that free most
-        constexpr idx largest = 50'000;                         // triangles: minimum cuts of more take long
+        constexpr std::size_t charts_tried = 2, cuts_tried = 12; // those that waste most; that free most
+        constexpr idx largest = 50'000;                          // triangles: minimum cuts of more take long
         const auto charts = cut_charts(mesh_, facets_, seam);
         std::vector<std::pair<double, std::vector<idx>>> wasting;
         for (idx k = 0; k < charts.charts(); ++k)
