@@ -10,6 +10,7 @@
 
 #include <taut/impl/io/read_file.hpp>
 
+#include "shared/at.hpp"
 #include "shared/edge_list.hpp"
 #include "shared/failure.hpp"
 #include "shared/weight_list.hpp"
@@ -19,11 +20,6 @@ namespace taut::tools
 
 namespace
 {
-
-std::size_t u(idx i)
-{
-    return static_cast<std::size_t>(i);
-}
 
 [[noreturn]] void refuse_edge(const std::string& path, idx a, idx b)
 {
@@ -42,10 +38,10 @@ void mark_edges(std::vector<char>& seam, const std::vector<std::array<idx, 2>>& 
         auto v = impl::side_vertices(m, s);
         for (idx& i : v) i = source.vertex_origin(i);
         std::sort(v.begin(), v.end());
-        const auto at = std::lower_bound(edges.begin(), edges.end(), v);
-        if (at == edges.end() || *at != v) continue;
-        seam[u(s)] = 1;
-        found[static_cast<std::size_t>(at - edges.begin())] = 1;
+        const auto edge = std::lower_bound(edges.begin(), edges.end(), v);
+        if (edge == edges.end() || *edge != v) continue;
+        seam[at(s)] = 1;
+        found[static_cast<std::size_t>(edge - edges.begin())] = 1;
     }
     const auto missing = std::find(found.begin(), found.end(), char(0));
     if (missing == found.end()) return;
@@ -126,7 +122,7 @@ std::vector<double> seam_weights_of(const std::vector<std::unique_ptr<atlas_sour
     const auto given =
         parse_weights(io::impl::read_file(options.seam_weights), options.seam_weights, sources[0]->file_vertices);
     std::set<std::array<idx, 2>> found;
-    const auto factor = [&](idx v) { return given.of_vertices.empty() ? 1 : given.of_vertices[u(v)]; };
+    const auto factor = [&](idx v) { return given.of_vertices.empty() ? 1 : given.of_vertices[at(v)]; };
     for (std::size_t s = 0; s < weights.size(); ++s)
     {
         auto [a, b] = impl::side_vertices(joined.surface, static_cast<idx>(s));
@@ -167,7 +163,7 @@ std::vector<char> diagonals_of(const std::vector<std::unique_ptr<atlas_source>>&
     if (!any) return {};
     std::vector<char> diagonal(f.twin.size(), 0);
     for (std::size_t s = 0; s < diagonal.size(); ++s)
-        if (f.twin[s] >= 0) diagonal[s] = polygon[s / 3] == polygon[u(f.twin[s]) / 3];
+        if (f.twin[s] >= 0) diagonal[s] = polygon[s / 3] == polygon[at(f.twin[s]) / 3];
     return diagonal;
 }
 

@@ -10,6 +10,7 @@
 #include <taut/impl/exact/predicates.hpp>
 #include <taut/impl/gltf/vertex_attribute.hpp>
 
+#include "shared/at.hpp"
 #include "shared/failure.hpp"
 #include "shared/text_table.hpp"
 
@@ -21,15 +22,10 @@ namespace
 
 const vec2 no_place(std::numeric_limits<double>::quiet_NaN());
 
-std::size_t u(idx i)
-{
-    return static_cast<std::size_t>(i);
-}
-
 /// Leaves out triangles that have no place, or name a point which is not there or not finite, as repair does.
 void leave_out_unusable(textured_surface& s)
 {
-    const auto is_usable = [&](idx v) { return v >= 0 && u(v) < s.points.size() && impl::finite(s.points[u(v)]); };
+    const auto is_usable = [&](idx v) { return v >= 0 && at(v) < s.points.size() && impl::finite(s.points[at(v)]); };
     for (std::size_t t = 0; t < s.triangles.size(); ++t)
     {
         // Those that are left out of a map of glTF have all corners in one place.
@@ -76,7 +72,7 @@ void read_model(textured_surface& s, int texcoord_set)
     for (std::size_t t = 0; t < model.texcoord_cells.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             if (const idx x = model.texcoord_cells[t][k]; x >= 0)
-                s.uv[t][k] = vec2(model.texcoords[u(x)].x, 1 - model.texcoords[u(x)].y);
+                s.uv[t][k] = vec2(model.texcoords[at(x)].x, 1 - model.texcoords[at(x)].y);
     leave_out_unusable(s);
     s.normals = smooth_normals(s.points, s.triangles);
     s.tangents = read_tangents(model);
@@ -101,7 +97,7 @@ void read_soup(textured_surface& s, io::surface_format format)
     s.uv.assign(s.triangles.size(), {no_place, no_place, no_place});
     for (std::size_t t = 0; t < file.texcoord_cells.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
-            if (const idx x = file.texcoord_cells[t][k]; x >= 0) s.uv[t][k] = file.texcoords[u(x)];
+            if (const idx x = file.texcoord_cells[t][k]; x >= 0) s.uv[t][k] = file.texcoords[at(x)];
     if (s.points.empty()) throw mesh_error(mesh_fault::empty, {}, s.path + ": there are no vertices");
     leave_out_unusable(s);
     s.normals = smooth_normals(s.points, s.triangles);
@@ -110,7 +106,7 @@ void read_soup(textured_surface& s, io::surface_format format)
                  [&](std::size_t t, std::size_t k)
                  {
                      const idx n = file.normal_cells.empty() ? s.triangles[t][k] : file.normal_cells[t][k];
-                     return n >= 0 && u(n) < file.normals.size() ? file.normals[u(n)] : vec3(0.0);
+                     return n >= 0 && at(n) < file.normals.size() ? file.normals[at(n)] : vec3(0.0);
                  });
 }
 
@@ -143,7 +139,7 @@ vertex_colours read_vertex_colours(const textured_surface& s, io::surface_format
         for (const auto& t : s.triangles)
             for (const idx v : t)
                 for (int k = 0; k < 3; ++k)
-                    colours.values.push_back(static_cast<float>(file.vertices.colours.at(u(v))[k]));
+                    colours.values.push_back(static_cast<float>(file.vertices.colours.at(at(v))[k]));
     }
     if (colours.channels == 0)
         throw unsuitable_input(s.path + ": its vertices have no colours; those of PLY, OFF and glTF are read");
@@ -161,14 +157,14 @@ void require_same_triangles(const textured_surface& a, const textured_surface& b
     for (const auto& t : a.triangles)
         for (const idx v : t)
         {
-            if (!impl::finite(a.points[u(v)])) continue;
-            low = glm::min(low, a.points[u(v)]);
-            high = glm::max(high, a.points[u(v)]);
+            if (!impl::finite(a.points[at(v)])) continue;
+            low = glm::min(low, a.points[at(v)]);
+            high = glm::max(high, a.points[at(v)]);
         }
     const double tolerance = 1e-5 * glm::length(high - low);
     for (std::size_t t = 0; t < a.triangles.size(); ++t)
         for (std::size_t k = 0; k < 3 && std::isfinite(b.uv[t][0].x); ++k)
-            if (const double d = glm::length(a.points[u(a.triangles[t][k])] - b.points[u(b.triangles[t][k])]);
+            if (const double d = glm::length(a.points[at(a.triangles[t][k])] - b.points[at(b.triangles[t][k])]);
                 !(d <= tolerance))
                 throw unsuitable_input("corner " + std::to_string(k) + " of triangle " + std::to_string(t) + " lies " +
                                        number(d, 3) + " apart in " + a.path + " and " + b.path +

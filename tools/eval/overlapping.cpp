@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "eval/overlapping.hpp"
+#include "shared/at.hpp"
 
 #include <algorithm>
 #include <string>
@@ -13,11 +14,6 @@ namespace taut::tools
 
 namespace
 {
-
-std::size_t at(idx i)
-{
-    return static_cast<std::size_t>(i);
-}
 
 /// Whether two triangles have a side in common, each the other way around: if both are positive, it parts them.
 bool share_a_side(const std::array<idx, 3>& t, const std::array<idx, 3>& s)

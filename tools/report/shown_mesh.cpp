@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report/shown_mesh.hpp"
+#include "shared/at.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,10 @@
 namespace taut::report
 {
 
+using tools::at;
+
 namespace
 {
-
-std::size_t at(idx i)
-{
-    return static_cast<std::size_t>(i);
-}
 
 /// Numbers the values that occur from 0, in their order, and replaces them. Returns how many there are.
 template <class Value>

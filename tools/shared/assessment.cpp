@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/assessment.hpp"
+#include "shared/at.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +13,6 @@ namespace taut::tools
 
 namespace
 {
-
-std::size_t at(idx i)
-{
-    return static_cast<std::size_t>(i);
-}
 
 /// The triangles that have an area at rest.
 std::vector<mesh<triangle>::cell> solid_cells(const mesh<triangle>& surface)
