@@ -2,11 +2,14 @@
 #include "shared/outputs.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <taut/impl/io/atomic_file.hpp>
@@ -31,22 +34,43 @@ fs::path spelled_out(const fs::path& path)
     return full.empty() ? path : full;
 }
 
-/// Also by links, hard and symbolic.
-bool same_file(const fs::path& a, const fs::path& b)
+/// What tells a file from others, by whatever name and link, looked up once.
+class file_identity
 {
-    std::error_code ignored;
-    return fs::equivalent(a, b, ignored) || spelled_out(a) == spelled_out(b);
-}
+public:
+    explicit file_identity(const fs::path& path) : spelled_(spelled_out(path).string())
+    {
+        struct stat found = {};
+        if (::stat(path.c_str(), &found) == 0) node_ = std::pair(found.st_dev, found.st_ino);
+    }
+
+    const std::string& spelled() const { return spelled_; }
+    bool operator==(const file_identity& other) const
+    {
+        return (node_ && node_ == other.node_) || spelled_ == other.spelled_;
+    }
+
+private:
+    std::string spelled_;
+    std::optional<std::pair<dev_t, ino_t>> node_;
+};
+
+/// A file of a run and its identity.
+struct known_file
+{
+    const run_file& file;
+    file_identity identity;
+};
 
 /// Returns whether two files that are written are one: also a tile of a name with <UDIM>, there or not.
-bool may_be_same_file(const run_file& a, const run_file& b)
+bool may_be_same_file(const known_file& a, const known_file& b)
 {
-    const auto is_tile = [](const run_file& tiles, const run_file& file)
+    const auto is_tile = [](const known_file& tiles, const known_file& one)
     {
-        return tiles.use->tiles && names_tiles(tiles.path.string()) &&
-               is_tile_file(spelled_out(tiles.path).string(), spelled_out(file.path).string());
+        return tiles.file.use->tiles && names_tiles(tiles.file.path.string()) &&
+               is_tile_file(tiles.identity.spelled(), one.identity.spelled());
     };
-    return same_file(a.path, b.path) || is_tile(a, b) || is_tile(b, a);
+    return a.identity == b.identity || is_tile(a, b) || is_tile(b, a);
 }
 
 /// As the user knows an option.
@@ -93,15 +117,16 @@ bool require_place(const run_file& output)
 /// Returns whether an output is to replace that input, as a whole.
 bool is_in_place(const run_file& output, const run_file& input)
 {
-    return output.use->in_place && output.source == input.given && same_file(output.given, input.given) &&
-           output.path != name_of_invalid(output.given);
+    return output.use->in_place && output.source == input.given &&
+           file_identity(output.given) == file_identity(input.given) && output.path != name_of_invalid(output.given);
 }
 
-void require_no_input(const run_file& output, const run_file& input)
+void require_no_input(const known_file& written, const known_file& read)
 {
+    const run_file &output = written.file, &input = read.file;
+    if (!(written.identity == read.identity) || is_in_place(output, input)) return;
     std::error_code ignored;
     if (fs::exists(input.path, ignored) && !fs::is_regular_file(input.path, ignored)) return; // a pipe can be both
-    if (!same_file(output.path, input.path) || is_in_place(output, input)) return;
     refuse(output,
            "would overwrite " + (input.path == input.given ? input.use->read_as
                                                            : input.path.string() + ", which belongs to " +
@@ -119,7 +144,7 @@ void require_own(const run_file& output)
         !fs::exists(output.path, ignored))
         return;
     const auto own = fs::exists(output.given, ignored) ? companions_of(output.given) : std::vector<fs::path>();
-    const auto is_it = [&](const fs::path& one) { return same_file(one, output.path); };
+    const auto is_it = [&](const fs::path& one) { return file_identity(one) == file_identity(output.path); };
     if (std::none_of(own.begin(), own.end(), is_it))
         refuse(output, "is there already and no part of it; move it away, or choose another name");
 }
@@ -128,10 +153,13 @@ void require_own(const run_file& output)
 
 outputs::outputs(std::span<const run_file> files)
 {
-    std::vector<const run_file*> before;
+    std::vector<known_file> all;
+    for (const auto& file : files) all.push_back({file, file_identity(file.path)});
+    std::vector<const known_file*> before;
     const run_file* standard = nullptr;
-    for (const auto& file : files)
+    for (const auto& one : all)
     {
+        const run_file& file = one.file;
         if (file.is_read() && file.given == standard_input)
         {
             if (standard)
@@ -144,11 +172,11 @@ outputs::outputs(std::span<const run_file> files)
         std::error_code ignored;
         if (!fs::is_character_file(file.path, ignored)) // a terminal and /dev/null take anything
             for (const auto* other : before)
-                if (!(file.use->tiles && other->option == file.option) && may_be_same_file(*other, file))
-                    refuse(file, "is also the file of " + name_of(*other->option) + "; name another one");
-        before.push_back(&file);
-        for (const auto& input : files)
-            if (input.is_read()) require_no_input(file, input);
+                if (!(file.use->tiles && other->file.option == file.option) && may_be_same_file(*other, one))
+                    refuse(file, "is also the file of " + name_of(*other->file.option) + "; name another one");
+        before.push_back(&one);
+        for (const auto& input : all)
+            if (input.file.is_read()) require_no_input(one, input);
         require_own(file);
     }
 }

@@ -31,6 +31,7 @@ std::string path_of_tile(const std::string& path, idx tile)
 std::vector<std::filesystem::path> tile_files(const std::string& path)
 {
     std::vector<std::filesystem::path> files;
+    if (!names_tiles(path)) return files;
     for (idx tile = 0; tile < most_tiles; ++tile)
     {
         std::error_code ignored;

@@ -7,8 +7,6 @@
 
 #include <doctest/doctest.h>
 
-#include <support/size.hpp>
-
 #include <taut/impl/exact/convex_polygons.hpp>
 #include <taut/impl/map/parameterize.hpp>
 
@@ -20,13 +18,18 @@ using namespace taut;
 /// Rough hills of n by n quads, and the quad of each triangle.
 struct hills
 {
-    explicit hills(idx n)
+    explicit hills(idx n) : surface(rough(n))
+    {
+        for (idx k = 0; k < n * n; ++k) quad.insert(quad.end(), 2, k);
+    }
+
+    static mesh<triangle> rough(idx n)
     {
         std::vector<vec3> points;
         for (idx y = 0; y <= n; ++y)
             for (idx x = 0; x <= n; ++x)
                 points.emplace_back(
-                    x, y, 2.0 * std::sin(0.9 * x + 0.3 * y) * std::cos(1.1 * y) + 0.9 * ((x * 7 + y * 5) % 3));
+                    x, y, 4.0 * std::sin(0.9 * x + 0.3 * y) * std::cos(1.1 * y) + 0.9 * ((x * 7 + y * 5) % 3));
         std::vector<std::array<idx, 3>> cells;
         for (idx y = 0; y < n; ++y)
             for (idx x = 0; x < n; ++x)
@@ -34,9 +37,8 @@ struct hills
                 const idx a = y * (n + 1) + x;
                 cells.push_back({a, a + 1, a + n + 2});
                 cells.push_back({a, a + n + 2, a + n + 1});
-                quad.insert(quad.end(), 2, y * n + x);
             }
-        surface = mesh<triangle>(std::move(points), std::move(cells));
+        return {std::move(points), std::move(cells)};
     }
 
     std::size_t concave(const std::vector<vec2>& uv) const
@@ -45,17 +47,17 @@ struct hills
             .size();
     }
 
-    mesh<triangle> surface{{}, {}};
+    mesh<triangle> surface;
     std::vector<idx> quad;
 };
 
 TEST_CASE("convex polygons: quads that are convex in space are so in the map, with pins and no overlaps, too")
 {
     queue q;
-    const idx n = test::sized(24, 12);
+    const idx n = 12;
     const hills h(n);
     parameterize_params params;
-    REQUIRE(h.concave(parameterize(q, h.surface, params).uv) > 3); // else there is nothing to see
+    REQUIRE(h.concave(parameterize(q, h.surface, params).uv) > 0); // else there is nothing to see
     params.polygons = h.quad;
     const auto check = [&]
     {

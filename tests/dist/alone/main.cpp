@@ -20,10 +20,10 @@ namespace
 std::string fault;
 int calls = 0;
 
-/// Whether this call is the one that fails: the third of the last process.
-bool fails(const char* of)
+/// Whether this call is the one that fails: the k-th of the last process.
+bool fails(const char* of, int k)
 {
-    return fault == of && taut::test::rank_of() == taut::test::size_of() - 1 && ++calls == 3;
+    return fault == of && taut::test::rank_of() == taut::test::size_of() - 1 && ++calls == k;
 }
 
 template <class F>
@@ -36,21 +36,21 @@ F* next(const char* name)
 
 extern "C" PetscErrorCode PCApply(PC pc, Vec x, Vec y)
 {
-    if (fails("apply")) return PETSC_ERR_LIB;
+    if (fails("apply", 3)) return PETSC_ERR_LIB;
     static auto* const real = next<PetscErrorCode(PC, Vec, Vec)>("PCApply");
     return real(pc, x, y);
 }
 
 extern "C" PetscErrorCode PCSetUp(PC pc)
 {
-    if (fails("setup")) return PETSC_ERR_LIB;
+    if (fails("setup", 3)) return PETSC_ERR_LIB;
     static auto* const real = next<PetscErrorCode(PC)>("PCSetUp");
     return real(pc);
 }
 
 extern "C" PetscErrorCode MatUpdateMPIAIJWithArray(Mat A, const PetscScalar v[])
 {
-    if (fails("memory")) throw std::bad_alloc();
+    if (fails("memory", 1)) throw std::bad_alloc();
     static auto* const real = next<PetscErrorCode(Mat, const PetscScalar[])>("MatUpdateMPIAIJWithArray");
     return real(A, v);
 }

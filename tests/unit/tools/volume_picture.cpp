@@ -38,7 +38,8 @@ int count_pixels(const image& picture, int from, int to, bool (*holds)(io::rgb))
 
 TEST_CASE("volume picture: views side by side, narrow ones in less room, with a legend")
 {
-    const auto one = volume_picture({squares(1)}, small_volume), two = volume_picture({squares(1), squares(8)}, small);
+    const auto one = volume_picture({squares(1)}, small_volume),
+               two = volume_picture({squares(1), squares(8)}, small_volume);
     CHECK(one.height() == 304);
     CHECK(two.width() > one.width());
     CHECK(two.width() < 2 * one.width());
