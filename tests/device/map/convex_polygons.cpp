@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -16,9 +17,9 @@ namespace
 using namespace taut;
 
 /// Rough hills of n by n quads, and the quad of each triangle.
-struct hills
+struct quad_hills
 {
-    explicit hills(idx n) : surface(rough(n))
+    explicit quad_hills(idx n) : surface(rough(n))
     {
         for (idx k = 0; k < n * n; ++k) quad.insert(quad.end(), 2, k);
     }
@@ -55,7 +56,7 @@ TEST_CASE("convex polygons: quads that are convex in space are so in the map, wi
 {
     queue q;
     const idx n = 12;
-    const hills h(n);
+    const quad_hills h(n);
     parameterize_params params;
     REQUIRE(h.concave(parameterize(q, h.surface, params).uv) > 0); // else there is nothing to see
     params.polygons = h.quad;
@@ -80,19 +81,28 @@ TEST_CASE("convex polygons: quads that are convex in space are so in the map, wi
     check();
 }
 
-TEST_CASE("convex polygons: those for which a fixed boundary leaves no room are told")
+TEST_CASE("convex polygons: one that pins make concave stays so, and is told")
 {
     queue q;
-    const hills h(6);
-    parameterize_params params{.boundary = boundary_mode::fixed, .polygons = h.quad};
-    params.barycentric.boundary.shape = boundary_shape::square;
+    const idx n = 6;
+    const quad_hills h(n);
+    parameterize_params params{.polygons = h.quad};
+    const auto convex = taut::impl::find_convex_polygons(h.surface.cells(), h.quad, h.surface.points());
+    const auto inner = std::find_if(convex.numbers.begin(), convex.numbers.end(),
+                                    [n](idx k) { return k % n > 0 && k % n < n - 1 && k / n > 0 && k / n < n - 1; });
+    REQUIRE(inner != convex.numbers.end());
+    const idx a = *inner / n * (n + 1) + *inner % n, b = a + 1, c = a + n + 2, d = a + n + 1;
+    const auto free = parameterize(q, h.surface, params).uv;
+    const auto at = [&free](idx v) { return free[static_cast<std::size_t>(v)]; };
+    params.constraints = constraints<triangle>(h.surface);
+    params.constraints.pin(b, at(b)).pin(c, at(c)).pin(d, at(d)).pin(a, at(c) + 0.3 * (at(a) - at(c)));
     const auto r = parameterize(q, h.surface, params);
     REQUIRE(r);
     CHECK(certify<2>(h.surface.cells(), std::span<const vec2>(r.uv)));
-    CHECK(r.report.concave.size() == h.concave(r.uv));
-    const auto& notes = r.report.notes;
-    const bool told = !notes.empty() && notes.back().find("not convex in the map") != std::string::npos;
-    CHECK(told == !r.report.concave.empty());
+    CHECK(r.report.concave == std::vector<idx>{*inner});
+    CHECK(h.concave(r.uv) == 1);
+    REQUIRE_FALSE(r.report.notes.empty());
+    CHECK(r.report.notes.back().find("1 polygon is not convex in the map") != std::string::npos);
     params.polygons.pop_back();
     CHECK_THROWS_AS(parameterize(q, h.surface, params), parameter_error);
 }
