@@ -498,12 +498,21 @@ def test_exr_of_others():
         image = Image((FOLDER / (name + ".png")).read_bytes())
         made[name] = [image.at(i, j)[:3] for j in range(5) for i in range(7)]
     assert all(m == made["float"] for m in made.values())
-    whole = exr(7, 5, colours)
+    whole, tiles = exr(7, 5, colours), exr(7, 5, colours, tiled=4)
+    other_tiles = lambda size, said: tiles.replace(struct.pack("<IIB", size, size, 0), said)
     for data, says in ((whole[:-40], "cannot be decoded"), (whole[:60], "is no EXR of one part"),
                        (exr(7, 5, {n: (lambda i, j: 3) for n in "RGB"}, "I"), "whole numbers"),
                        (exr(7, 5, {"X": step, "Y": step}), "no channels R, G, B"),
                        (exr(7, 5, colours, window=(0, 0, 60000, 60000)), "damaged or cut off"),
-                       (exr(7, 5, colours, window=(-2**31, 0, 2**31 - 1, 4)), "pixels; 1 to 65536 are read")):
+                       (exr(7, 5, colours, window=(-2**31, 0, 2**31 - 1, 4)), "pixels; 1 to 65536 are read"),
+                       (other_tiles(4, struct.pack("<IIB", 4, 2**30, 0)), "damaged or cut off"),
+                       (other_tiles(4, struct.pack("<IIB", 4, 4, 1)), "has several levels"),
+                       (other_tiles(4, struct.pack("<IIB", 0, 4, 0)), "has tiles without pixels"),
+                       (other_tiles(4, struct.pack("<IIB", 1, 1, 0)), "has tiles outside of the image or the file"),
+                       (tiles[:-200], "has tiles outside of the image or the file"),
+                       (tiles.replace(b"tiledesc\0" + struct.pack("<i", 9), b"tiledesc\0" + struct.pack("<i", 8)), "no EXR of one part"),
+                       (whole.replace(b"displayWindow\0box2i\0" + struct.pack("<i", 16), b"type\0string\0" + struct.pack("<i", 16)),
+                        "no EXR of one part")):
         (FOLDER / "t.exr").write_bytes(data)
         assert says in run("bake", "old.obj", "old.obj", "--texture", "t.exr", "-o", "x.png", code=3), says
 

@@ -175,12 +175,77 @@ public:
 private:
     const unsigned char* data() const { return reinterpret_cast<const unsigned char*>(bytes_.data()); }
 
+    /// A whole number of the file, which is little-endian.
+    template <class Number>
+    Number number_at(std::size_t at) const
+    {
+        Number number = 0;
+        for (std::size_t k = 0; k < sizeof(Number); ++k)
+            number |= static_cast<Number>(static_cast<Number>(static_cast<unsigned char>(bytes_[at + k])) << (8 * k));
+        return number;
+    }
+
+    /// Whether the attributes on which tinyexr ends the program hold what it takes for granted; it reports others.
+    bool attributes_hold(bool tiled) const
+    {
+        for (std::size_t at = version_bytes; at < bytes_.size() && bytes_[at] != '\0';)
+        {
+            const std::size_t type = bytes_.find('\0', at) + 1;
+            const std::size_t length = type == 0 ? 0 : bytes_.find('\0', type) + 1;
+            if (length == 0 || bytes_.size() - length < 4) break;
+            const std::size_t begin = length + 4, size = number_at<std::uint32_t>(length);
+            if (size > bytes_.size() - begin) break;
+            const std::string_view name = bytes_.substr(at, type - 1 - at), value = bytes_.substr(begin, size);
+            if (name == "type" && value.substr(0, value.find('\0')) != (tiled ? "tiledimage" : "scanlineimage"))
+                return false;
+            if (name == "tiles" && size != 9) return false;
+            at = begin + size;
+        }
+        return true;
+    }
+
+    /// Throws error unless the table of tiles leads to tiles of the image: tinyexr reads where it is told to.
+    void check_tiles(std::uint64_t width, std::uint64_t height) const
+    {
+        const auto fail = [&](const char* what)
+        { throw io::io_error(name_, std::string(what) + "; save it in scan lines"); };
+        if (header_.tile_level_mode != TINYEXR_TILE_ONE_LEVEL) fail("has several levels");
+        if (header_.tile_size_x < 1 || header_.tile_size_y < 1) fail("has tiles without pixels");
+        const auto across = static_cast<std::uint64_t>(header_.tile_size_x),
+                   down = static_cast<std::uint64_t>(header_.tile_size_y);
+        const std::uint64_t columns = (width + across - 1) / across, rows = (height + down - 1) / down;
+        const std::size_t table = version_bytes + header_.header_len;
+        constexpr std::size_t head = 5 * sizeof(std::int32_t); // column, row, two levels, size
+        if (table > bytes_.size() || columns * rows > (bytes_.size() - table) / sizeof(std::uint64_t) ||
+            bytes_.size() < head)
+            fail("ends within its tiles");
+        check_bytes(columns * rows, across, down);
+        for (std::size_t n = 0; n < columns * rows; ++n)
+        {
+            const auto at = number_at<std::uint64_t>(table + n * sizeof(std::uint64_t));
+            if (at == 0 || at > bytes_.size() - head || number_at<std::uint32_t>(at) >= columns ||
+                number_at<std::uint32_t>(at + 4) >= rows)
+                fail("has tiles outside of the image or the file");
+        }
+    }
+
+    /// Throws error if the file is too short for so many pieces of width x height: no compression makes more than some
+    /// 1032 bytes of one, as deflate does, and a number has two at least.
+    void check_bytes(std::uint64_t pieces, std::uint64_t width, std::uint64_t height) const
+    {
+        const std::uint64_t most = 550 * bytes_.size() / static_cast<std::uint64_t>(header_.num_channels);
+        if (width > most || height > most || width * height > most / pieces)
+            throw io::io_error(name_, "has " + std::to_string(bytes_.size()) + " bytes for " + std::to_string(pieces) +
+                                          " of " + std::to_string(width) + " x " + std::to_string(height) +
+                                          " pixels; the file is damaged or cut off, get or save it again");
+    }
+
     void read_header()
     {
         EXRVersion version;
         const char* error = nullptr;
         if (ParseEXRVersionFromMemory(&version, data(), bytes_.size()) != TINYEXR_SUCCESS || version.multipart != 0 ||
-            version.non_image != 0 ||
+            version.non_image != 0 || !attributes_hold(version.tiled != 0) ||
             ParseEXRHeaderFromMemory(&header_, &version, data(), bytes_.size(), &error) != TINYEXR_SUCCESS)
             throw io::io_error(name_,
                                "is no EXR of one part that can be read: " + exr_message(error) + "; save it again");
@@ -191,13 +256,8 @@ private:
         if (width < 1 || height < 1 || width > most || height > most)
             throw io::io_error(name_, "is " + std::to_string(width) + " x " + std::to_string(height) +
                                           " pixels; 1 to 65536 are read");
-        // No compression makes more than some 1032 bytes of one, as deflate does, and a number has two at least.
-        const auto numbers =
-            static_cast<std::uint64_t>(width * height) * static_cast<std::uint64_t>(header_.num_channels);
-        if (2 * numbers > 1100 * bytes_.size())
-            throw io::io_error(name_, "has " + std::to_string(bytes_.size()) + " bytes for " + std::to_string(width) +
-                                          " x " + std::to_string(height) +
-                                          " pixels; the file is damaged or cut off, get or save it again");
+        check_bytes(1, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
+        if (header_.tiled != 0) check_tiles(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
     }
 
     /// Numbers of the channels in the order of a texture; asks for floats.
@@ -245,6 +305,8 @@ private:
                     to[((y + j) * width + x + i) * step] = plane(tile.images)[j * columns + i];
         }
     }
+
+    static constexpr std::size_t version_bytes = 8; // and the magic number, before the header
 
     std::string_view bytes_;
     const std::string& name_;

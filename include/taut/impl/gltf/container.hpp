@@ -132,7 +132,8 @@ inline std::filesystem::path file_of_buffer(const gltf_source& source, const glt
     std::error_code unknown;
     if (!fs::is_regular_file(file, unknown))
         buffer.fail("lies in " + file.string() + ", which is no file; put it there");
-    const fs::path real = fs::canonical(file, unknown), root = fs::canonical(folder.empty() ? "." : folder, unknown);
+    fs::path real = fs::canonical(file, unknown);
+    const fs::path root = fs::canonical(folder.empty() ? "." : folder, unknown);
     if (real.empty() || root.empty() ||
         std::mismatch(root.begin(), root.end(), real.begin(), real.end()).first != root.end())
         refuse("a link out of the folder of the document");

@@ -16,10 +16,12 @@ namespace taut::impl
 
 // Implementation of parameterize.hpp; include that one.
 
+inline map_result solved(const map_run& run);
+
 /// Start on the finest level that replaces one from coarser levels whose map could not be certified.
 inline run_start second_start(const map_run& run, const run_start& coarse, const attempt& failed)
 {
-    run_start start = make_start(run, on_the_mesh);
+    run_start start = make_start(run, solved, on_the_mesh);
     std::vector<std::string> notes = coarse.notes;
     notes.insert(notes.end(), failed.notes.begin(), failed.notes.end());
     notes.push_back("the coarse start failed (" + failed.descent->failure + "); a barycentric start was made");
@@ -33,7 +35,7 @@ inline run_start second_start(const map_run& run, const run_start& coarse, const
 /// The map is in normalised units.
 inline map_result solved(const map_run& run)
 {
-    const run_start start = make_start(run);
+    const run_start start = make_start(run, solved);
     if (!start.ready()) return unsolved_result(run, start);
     attempt first = attempt_in_turns(run, start);
     if (first.certified || first.stopped || !start.coarse) return solved_result(run, start, std::move(first));
@@ -43,25 +45,6 @@ inline map_result solved(const map_run& run)
     const run_start second = second_start(run, start, first);
     if (!second.ready()) return unsolved_result(run, second);
     return solved_result(run, second, attempt_in_turns(run, second));
-}
-
-// Declared in starts.hpp.
-inline std::vector<vec2> free_map(const map_run& run)
-{
-    auto params = run.params;
-    params.constraints = {};
-    params.solve.stopping.gradient_tolerance = std::max(1e-3, params.solve.stopping.gradient_tolerance);
-    run_clock clock(run.clock.left(),
-                    [&run](progress now)
-                    {
-                        now.level = std::max(now.level, 1); // it is not the map that was asked for
-                        now.coordinates = {};
-                        return run.clock.ask(now);
-                    });
-    const map_run free(run.queue, run.in, params, clock);
-    map_result found = solved(free);
-    run.clock.stages.append(clock.stages.stages());
-    return found ? std::move(found.uv) : std::vector<vec2>();
 }
 
 /// Does all of parameterize() except the counters. params: validated.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -85,15 +86,34 @@ inline run_start fitted_start(const map_run& run, run_start start, bool given)
     return start;
 }
 
-/// Computes the map of a run without the constraints; none if that has no valid one. Defined in mapped.hpp.
-inline std::vector<vec2> free_map(const map_run& run);
+/// Runs the phases between preparation and placement of a map.
+using map_solver = map_result (*)(const map_run&);
+
+/// Computes the map of a run without the constraints; none if that has no valid one.
+inline std::vector<vec2> free_map(const map_run& run, map_solver solve)
+{
+    auto params = run.params;
+    params.constraints = {};
+    params.solve.stopping.gradient_tolerance = std::max(1e-3, params.solve.stopping.gradient_tolerance);
+    run_clock clock(run.clock.left(),
+                    [&run](progress now)
+                    {
+                        now.level = std::max(now.level, 1); // it is not the map that was asked for
+                        now.coordinates = {};
+                        return run.clock.ask(now);
+                    });
+    const map_run free(run.queue, run.in, params, clock);
+    map_result found = solve(free);
+    run.clock.stages.append(clock.stages.stages());
+    return found ? std::move(found.uv) : std::vector<vec2>();
+}
 
 /// Initial map of a run: its makers are tried in their order.
 struct start_maker
 {
     std::string_view name;
     bool (*applies)(const map_run&);
-    run_start (*make)(const map_run&); ///< `useless`: the next one is tried
+    run_start (*make)(const map_run&, map_solver); ///< `useless`: the next one is tried
 };
 
 /// Injective start that satisfies the constraints from a map that need not; `useless` without one.
@@ -110,39 +130,39 @@ inline std::span<const start_maker> start_makers()
 {
     static constexpr start_maker all[] = {
         {"given", [](const map_run& run) { return !run.params.initial.empty(); },
-         [](const map_run& run)
+         [](const map_run& run, map_solver)
          {
              run_start start;
              start.map = given_map(run.in.surface, run.in.ideal, run.params, run.in.unit, start.notes);
              return fitted_start(run, std::move(start), true);
          }},
         {"coarse", [](const map_run& run) { return run.starts_coarse(); },
-         [](const map_run&)
+         [](const map_run&, map_solver)
          {
              run_start start;
              start.coarse = true;
              return start;
          }},
         {"penalty", [](const map_run& run) { return run.uses_continuation(); },
-         [](const map_run& run) { return penalty_continuation(run).make(); }},
+         [](const map_run& run, map_solver) { return penalty_continuation(run).make(); }},
         {"free map",
          [](const map_run& run)
          {
              return run.held.constrained() && run.params.initial.empty() &&
                     run.params.boundary == boundary_mode::free && !run.outline_pinned();
          },
-         [](const map_run& run)
+         [](const map_run& run, map_solver solve)
          {
              start_map map;
-             map.uv = free_map(run);
+             map.uv = free_map(run, solve);
              return start_from(run, std::move(map));
          }},
         {"conformal",
          [](const map_run& run)
          { return run.params.start == start_method::conformal && run.params.boundary == boundary_mode::free; },
-         [](const map_run& run) { return start_from(run, conformal_start(run.in.surface, run.in.sides)); }},
+         [](const map_run& run, map_solver) { return start_from(run, conformal_start(run.in.surface, run.in.sides)); }},
         {"barycentric", [](const map_run&) { return true; },
-         [](const map_run& run)
+         [](const map_run& run, map_solver)
          {
              run_start start;
              start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric, elimination_solver(),
@@ -155,7 +175,7 @@ inline std::span<const start_maker> start_makers()
 inline constexpr std::size_t on_the_mesh = 2; ///< the first of these
 
 /// Makes the start of a run by the first of the makers that applies and succeeds.
-inline run_start make_start(const map_run& run, std::size_t first = 0)
+inline run_start make_start(const map_run& run, map_solver solve, std::size_t first = 0)
 {
     run_start start;
     for (const start_maker& maker : start_makers().subspan(first))
@@ -163,7 +183,7 @@ inline run_start make_start(const map_run& run, std::size_t first = 0)
         if (!maker.applies(run)) continue;
         start.stopped = !run.clock.proceed();
         if (start.stopped) break;
-        run_start made = maker.make(run);
+        run_start made = maker.make(run, solve);
         made.notes.insert(made.notes.begin(), start.notes.begin(), start.notes.end());
         if (made.untangling.empty()) made.untangling = std::move(start.untangling);
         start = std::move(made);

@@ -87,25 +87,18 @@ public:
     /// Returns whether `from` is a stream of as many bytes as `to` has, which are then there.
     bool unpack([[maybe_unused]] std::string_view from, [[maybe_unused]] std::span<char> to)
     {
-        switch (kind_)
-        {
-        case compressor::zlib:
 #ifdef TAUT_WITH_ZLIB
-            return inflated(from, to);
+        if (kind_ == compressor::zlib) return inflated(from, to);
 #endif
-        case compressor::lzma:
 #ifdef TAUT_WITH_LZMA
-            return unpacked_lzma(from, to);
+        if (kind_ == compressor::lzma) return unpacked_lzma(from, to);
 #endif
-        case compressor::lz4:
 #ifdef TAUT_WITH_LZ4
+        if (kind_ == compressor::lz4)
             return fits_int(from.size()) && fits_int(to.size()) &&
                    LZ4_decompress_safe(from.data(), to.data(), static_cast<int>(from.size()),
                                        static_cast<int>(to.size())) == static_cast<int>(to.size());
 #endif
-        case compressor::none:
-            break;
-        }
         return false;
     }
 
@@ -114,30 +107,21 @@ public:
     {
         std::string to;
         bool done = false;
-        switch (kind_)
-        {
-        case compressor::zlib:
 #ifdef TAUT_WITH_ZLIB
-            done = deflated(from, to);
+        if (kind_ == compressor::zlib) done = deflated(from, to);
 #endif
-            break;
-        case compressor::lzma:
 #ifdef TAUT_WITH_LZMA
-            done = packed_lzma(from, to);
+        if (kind_ == compressor::lzma) done = packed_lzma(from, to);
 #endif
-            break;
-        case compressor::lz4:
 #ifdef TAUT_WITH_LZ4
-            if (from.size() > LZ4_MAX_INPUT_SIZE) break;
+        if (kind_ == compressor::lz4 && from.size() <= LZ4_MAX_INPUT_SIZE)
+        {
             to.resize(static_cast<std::size_t>(LZ4_compressBound(static_cast<int>(from.size()))));
             to.resize(static_cast<std::size_t>(LZ4_compress_default(
                 from.data(), to.data(), static_cast<int>(from.size()), static_cast<int>(to.size()))));
             done = !to.empty();
-#endif
-            break;
-        case compressor::none:
-            break;
         }
+#endif
         if (!done) throw error("a block of " + std::to_string(from.size()) + " bytes could not be compressed");
         return to;
     }
@@ -239,7 +223,7 @@ private:
     lzma_stream packing_ = LZMA_STREAM_INIT;
 #endif
 
-    compressor kind_;
+    [[maybe_unused]] compressor kind_;
 };
 
 } // namespace taut::io::impl
