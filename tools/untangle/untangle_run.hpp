@@ -46,9 +46,9 @@ public:
     static constexpr int D = Element::dimension;
 
     /// input: the volume file that the problem is of, if it is of one.
-    untangle_run(const untangle_options& options, command_run& command, untangle_report report,
+    untangle_run(const untangle_options& options, command_run& run, untangle_report report,
                  const volume_case<Element>* input)
-        : options_(options), input_(input), command_(command), report_(std::move(report))
+        : options_(options), input_(input), command_(run), report_(std::move(report))
     {
     }
 

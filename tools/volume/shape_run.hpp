@@ -44,8 +44,8 @@ public:
     using map = std::vector<vec<D>>;
 
     /// All is referred to.
-    shape_run(const shape_options& options, command_run& command, const volume_case<Element>& input)
-        : options_(options), command_(command), input_(&input)
+    shape_run(const shape_options& options, command_run& run, const volume_case<Element>& input)
+        : options_(options), command_(run), input_(&input)
     {
         report_.seconds.read = command_.clock.now();
         report_.format = input.file().format;
