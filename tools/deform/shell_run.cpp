@@ -39,7 +39,7 @@
 namespace taut::tools
 {
 
-shell_run::shell_run(const shape_options& options, command_run& command) : options_(options), command_(command)
+shell_run::shell_run(const shape_options& options, command_run& run) : options_(options), command_(run)
 {
     const auto refuse = [](bool given, const char* option)
     {

@@ -23,7 +23,7 @@ class shell_run
 {
 public:
     /// All is referred to. Throws usage_error for options of volumes.
-    shell_run(const shape_options& options, command_run& command);
+    shell_run(const shape_options& options, command_run& run);
 
     exit_code operator()();
 
