@@ -96,10 +96,10 @@ TEST_CASE("corner simplices: each corner of each kind, all positive, with the ce
 
 TEST_CASE("corner simplices: cells of any kind in the other order are read turned over")
 {
-    for (const std::size_t cell : {1, 2, 3, 4, 5})
+    for (const std::size_t kind : {1, 2, 3, 4, 5})
     {
         auto s = test::small_volume(true);
-        auto& corners = s.cells[cell].corners;
+        auto& corners = s.cells[kind].corners;
         if (corners.size() == 6)
             corners = {corners[0], corners[2], corners[1], corners[3], corners[5], corners[4]};
         else if (corners.size() == 8)
