@@ -73,7 +73,7 @@ def named(names: Mapping[str, str]) -> Iterator[None]:
     try:
         yield
     except ParameterError as e:
-        begin = f"parameter {e.field}: "
+        begin = f"{e.field}: "
         if not str(e).startswith(begin):
             raise
         name, what = names.get(str(e.field), str(e.field)), str(e)[len(begin) :]
@@ -94,6 +94,8 @@ def call(
     make : turns what the library returns into a result; raises `NoMap` where it is none.
     names : as of `named()`
     """
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        raise ParameterError(f"progress: is {progress!r}, but must be a function, or True for a line", field="progress")
     line = _Line() if progress is True else None
     options = args[-1]
     options["progress"] = line if progress is True else progress or None

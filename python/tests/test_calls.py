@@ -173,3 +173,10 @@ def test_the_interpreter_ends_well_in_the_middle_of_a_call():
         time.sleep(0.3)
     """ % os.path.dirname(os.path.abspath(__file__)))
     assert done.returncode == 0, done.stderr
+
+
+def test_arguments_are_named_as_python_has_them(bowl):
+    with pytest.raises(taut.ParameterError, match="^energy: "):
+        taut.unwrap(*bowl, energy="slim")
+    with pytest.raises(taut.ParameterError, match="^progress: is 3"):
+        taut.unwrap(*bowl, progress=3)
