@@ -139,7 +139,8 @@ class Session:
         place = _arrays.array("x", x)
         if place.shape not in ((self.dim,), (1, self.dim)):
             raise ParameterError(f"x: has the shape {place.shape}, but must be ({self.dim},)", field="x")
-        return _arrays.points("x", place.reshape(1, -1), (self.dim,), nan=nan)[0]
+        row: Floats = _arrays.points("x", place.reshape(1, -1), (self.dim,), nan=nan)[0]
+        return row
 
     def pin(self, v: int, x: ArrayLike) -> Session:
         """Pins a vertex to a place, or moves its pin there; a coordinate that is NaN is left as it is."""
