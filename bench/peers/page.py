@@ -59,8 +59,8 @@ def plot(path, rows, kind, x, y, labels):
 
 
 HEADS = {
-    "atlas": "## Atlases of closed surfaces\n\n![Seam length over seconds](../images/peers-seams.svg)\n\n",
-    "disk": "## Maps of disks\n\n![Distortion over seconds](../images/peers-distortion.svg)\n\n",
+    "atlas": "## Atlases of closed surfaces\n\n![Seam length over processor seconds](../images/peers-seams.svg)\n\n",
+    "disk": "## Maps of disks\n\n![Distortion over processor seconds](../images/peers-distortion.svg)\n\n",
     "volume": """## Volumes
 
 A bar of cubes of six tetrahedra each, whose ends are pinned, one of them turned by 90 and 360 degrees. *E*: the mean of |S|² |S⁻¹|² / 9, 1 for
@@ -76,9 +76,9 @@ def sentences(rows):
     for kind, mine in (("atlas", "taut"), ("disk", "taut unwrap"), ("volume", "taut deform")):
         of_kind = [r for r in rows if r["kind"] == kind and "error" not in r]
         ours = {r["mesh"]: r for r in of_kind if r["peer"] == mine}
-        names = {"atlas": {"seconds": "faster", "seam": "shorter seams", "energy": "less distortion", "use": "a fuller square"},
-                 "disk": {"seconds": "faster", "energy": "less distortion"},
-                 "volume": {"seconds": "faster", "energy": "less distortion"}}[kind]
+        names = {"atlas": {"processor": "less processor time", "seam": "shorter seams", "energy": "less distortion", "use": "a fuller square"},
+                 "disk": {"processor": "less processor time", "energy": "less distortion"},
+                 "volume": {"processor": "less processor time", "energy": "less distortion"}}[kind]
         for peer in dict.fromkeys(r["peer"] for r in of_kind if not r["peer"].startswith("taut")):
             theirs = [r for r in of_kind if r["peer"] == peer and r["mesh"] in ours]
             better = []
@@ -93,22 +93,34 @@ def sentences(rows):
     return words
 
 
+def busy(rows):
+    """A sentence's end on how busy the machine was, by what calls of single threads waited."""
+    waits = [r["seconds"] / r["processor"] for r in rows if r.get("processor", 0) > 0.2]
+    often = sorted(waits)[len(waits) // 2] if waits else 1
+    return f" (as here: the median call took {often:.1f} s a processor second)" if often > 1.2 else ""
+
+
+def told(words):
+    """The arguments, but for where the environment lies."""
+    at = words.index("--folder") if "--folder" in words else len(words)
+    return words[:at] + words[at + 2:]
+
+
 def write(path, rows, command, machine, cores):
     path = pathlib.Path(path)
     images = path.resolve().parents[1] / "images"
-    plot(images / "peers-seams.svg", rows, "atlas", "seconds", "seam", ("seconds", "seam length / sqrt(area)"))
-    plot(images / "peers-distortion.svg", rows, "disk", "seconds", "energy", ("seconds", "mean symmetric Dirichlet energy"))
+    plot(images / "peers-seams.svg", rows, "atlas", "processor", "seam", ("processor seconds", "seam length / sqrt(area)"))
+    plot(images / "peers-distortion.svg", rows, "disk", "processor", "energy", ("processor seconds", "mean symmetric Dirichlet energy"))
     versions = {r["peer"].split()[0]: r["version"] for r in rows if r.get("version")}
     text = f"""# Comparison with other packages
 
 ```sh
-{shlex.join(['bench/peers.py', *command[1:]])}
+{shlex.join(['bench/peers.py', *told(command[1:])])}
 ```
 
-made this page, in one run on {cores} cores of {machine}, which others used, too: compare within a table. Each run is a process of its own; seconds are those of
-the call, the median of {max(r.get('runs', 1) for r in rows)} runs (of one, where it takes long), with kernels compiled before where there are any; processor seconds are of all threads; MB is the peak of the
-process. What is made is judged by `bench/peers/judge.py` and `volumes.py`, in which no package has a part. Meshes are of Debian's
-`libcgal-demo`. A peer that leaves another mesh is judged on that one. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
+made this page, in one run on {cores} cores of {machine}. Each run is a process of its own; *s* are seconds of the call, the median of up to {max(r.get('runs', 1) for r in rows)} runs
+(of one, where it takes long), with kernels compiled before where there are any; *processor s* are those of all its threads, which say more where others use the machine, too{busy(rows)}. *MB* is the peak of the process. What is made is judged by `bench/peers/judge.py` and `volumes.py`, in which no package has a part.
+Meshes are of Debian's `libcgal-demo`. A peer that leaves another mesh is judged on that one. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
 
 * *seam*: length of the edges that are cut, by the root of the area. *E*: area mean of |S|² (1 + 1/det²) at one common scale, 4 without distortion.
 * *flips*: triangles turned over within their chart. *overlap*: the part of what is covered that is covered twice, of 2048² points; less than a few 0.001 % may be rounding.
