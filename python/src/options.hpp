@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <cmath>
 #include <initializer_list>
 #include <limits>
 #include <optional>
@@ -49,8 +48,6 @@ public:
         }
         catch (const nb::cast_error&)
         {
-            if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
-                if (read_whole(*value, into)) return true;
             throw parameter_error(name, "is " + std::string(nb::repr(*value).c_str()) + ", but must be " + wanted<T>());
         }
         return true;
@@ -101,7 +98,7 @@ public:
         if constexpr (std::is_same_v<T, bool>)
             return "True or False";
         else if constexpr (std::is_integral_v<T>)
-            return "a whole number that 32 bits hold";
+            return "a whole number";
         else if constexpr (std::is_floating_point_v<T>)
             return "a number";
         else if constexpr (std::is_same_v<T, std::string>)
@@ -117,17 +114,6 @@ public:
     }
 
 private:
-    /// A whole number that is given as a float, as 512.0.
-    template <class T>
-    static bool read_whole(const nb::object& value, T& into)
-    {
-        double number = 0;
-        if (!nb::try_cast(value, number)) return false;
-        if (!(std::abs(number) < 2147483648.0) || number != std::floor(number)) return false;
-        into = static_cast<T>(number);
-        return true;
-    }
-
     nb::dict given_;
 };
 
