@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""peers.py [--folder build/peers] [--limit SECONDS] [--repeat N] [--program NAME="COMMAND {in} {out}"] [--write PAGE] [MESH ...]
+"""peers.py [--folder build/peers] [--limit SECONDS] [--repeat N] [--only KINDS] [--program NAME="COMMAND {in} {out}"] [--write PAGE] [MESH ...]
 
 Installs the packages of bench/peers.txt into a virtual environment, runs each on the same meshes in processes of their own,
 one after the other, and judges what they make by checks of its own (bench/peers/judge.py), which no package has a part in. A peer that
@@ -137,7 +137,7 @@ def meshes_of(given):
     bars = []
     for degrees in BARS:
         bars.append(given.folder / "meshes" / f"bar-{degrees}.npz")
-        numpy.savez(bars[-1], **dict(zip(("V", "T", "b", "bc"), volumes.bar(8, 32, degrees))))
+        numpy.savez(bars[-1], **dict(zip(("V", "T", "b", "bc"), volumes.bar(5, 20, degrees))))
     return {"atlas": demo_meshes(given.folder / "meshes", CLOSED), "disk": demo_meshes(given.folder / "meshes", DISKS), "volume": bars}
 
 
@@ -166,6 +166,8 @@ def measured(python, given):
     programs = {name: shlex.split(command) for name, command in (p.split("=", 1) for p in given.program)}
     rows = []
     for kind, meshes in meshes_of(given).items():
+        if kind not in given.only.split(","):
+            continue
         for mesh in meshes:
             size = size_of(mesh)
             for peer in peers_of(kind) + ([] if kind == "volume" else list(programs)):
@@ -189,6 +191,7 @@ def main():
     arguments.add_argument("--limit", type=float, default=120)
     arguments.add_argument("--write", type=pathlib.Path)
     arguments.add_argument("--repeat", type=int, default=3)
+    arguments.add_argument("--only", default="atlas,disk,volume", help="kinds of tasks")
     arguments.add_argument("--program", action="append", default=[], metavar='NAME="COMMAND {in} {out}"')
     arguments.add_argument("meshes", nargs="*", type=pathlib.Path)
     given = arguments.parse_args()

@@ -148,6 +148,7 @@ On how many of the meshes that it ends on a peer is better than taut, and on how
         text += """## Ctrl-C
 
 Seconds from a Ctrl-C in the middle of the call to the end of the process, on the last mesh of each kind, of calls that take more than half a second.
+The process of taut waits for the piece of work that is under way; the call itself raises half a second after the signal at the latest.
 
 | peer | mesh | seconds of the call | ended after |
 |---|---|---|---|
