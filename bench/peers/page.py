@@ -123,7 +123,7 @@ made this page, in one run on {cores} cores of {machine}. Each run is a process 
 Meshes are of Debian's `libcgal-demo`. A peer that leaves another mesh is judged on that one. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
 
 * *seam*: length of the edges that are cut, by the root of the area. *E*: area mean of |S|² (1 + 1/det²) at one common scale, 4 without distortion.
-* *flips*: triangles turned over within their chart. *overlap*: the part of what is covered that is covered twice, of 2048² points; less than a few 0.001 % may be rounding.
+* *flips*: triangles flipped within their chart. *overlap*: the part of what is covered that is covered twice, of 2048² points; less than a few 0.001 % may be rounding.
 * *use*: area of the charts by that of the square around them.
 * *taut*: its default, short seams. *taut for packing*: `prefer="packing"`, more and flatter charts, as most others make.
 
