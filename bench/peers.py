@@ -28,7 +28,7 @@ sys.path.insert(0, str(HERE))
 
 CLOSED = ["cow", "fandisk", "camel", "bear", "armadillo"]
 DISKS = ["lion-head", "mannequin-devil"]
-BARS = [90, 360]
+BARS = [90, 150]
 
 
 def environment(folder):

@@ -63,7 +63,7 @@ HEADS = {
     "disk": "## Maps of disks\n\n![Distortion over processor seconds](../images/peers-distortion.svg)\n\n",
     "volume": """## Volumes
 
-A bar of cubes of six tetrahedra each, whose ends are pinned, one of them turned by 90 and 360 degrees. *E*: the mean of |S|² |S⁻¹|² / 9, 1 for
+A bar of cubes of six tetrahedra each, whose ends are pinned, one of them turned by 90 and 150 degrees. *E*: the mean of |S|² |S⁻¹|² / 9, 1 for
 similarities; each peer minimises an energy of its own. *smallest det*: of all tetrahedra. *pins*: the farthest from its place; the bar is 1 wide.
 
 """,
