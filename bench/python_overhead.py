@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """What calls from Python cost: seconds of maps, atlases and frames of sessions; the rate of another thread during a solve; memory over
-many sessions; how soon Ctrl-C ends a call. PYTHONPATH=build/release/python bench/python_overhead.py"""
+many sessions; how soon Ctrl-C ends a call. PYTHONPATH=build/release/python bench/python_overhead.py [PART ...], where parts are maps, atlases,
+frames, counting, sessions, interrupts."""
 
 import gc
 import os
 import pathlib
 import resource
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -43,8 +45,14 @@ def frames():
     return f"median {np.median(seconds):.5f} s, least {min(seconds):.5f} s"
 
 
+def scheduled(thread):
+    """Seconds that a thread of this process was on a processor, and that it waited for one."""
+    return [int(x) / 1e9 for x in open(f"/proc/self/task/{thread}/schedstat").read().split()[:2]]
+
+
 def counting(work):
-    """How many times a second a thread of Python counts while `work` runs."""
+    """How a thread of Python counts while `work` runs: times a second, and the parts of the time on a processor, waiting for one,
+    and neither, which is that in which the interpreter's lock keeps it."""
     stop, count = threading.Event(), [0]
 
     def run():
@@ -54,33 +62,63 @@ def counting(work):
 
     thread = threading.Thread(target=run)
     thread.start()
-    start = time.perf_counter()
+    time.sleep(0.1)
+    begin, start, before = count[0], time.perf_counter(), scheduled(thread.native_id)
     work()
-    rate = count[0] / (time.perf_counter() - start)
+    seconds, after = time.perf_counter() - start, scheduled(thread.native_id)
+    rate = (count[0] - begin) / seconds
     stop.set()
     thread.join()
-    return rate
+    on, waiting = ((b - a) / seconds for a, b in zip(before, after))
+    return rate, on, waiting, max(0.0, 1 - on - waiting)
+
+
+SOLVES = """
+import sys, time
+sys.path.insert(0, {tests!r})
+from conftest import bowl_of
+import taut
+V, F = bowl_of(250)
+taut.unwrap(V, F, tolerance=1e-9)
+print(flush=True)
+end = time.monotonic() + 60
+while time.monotonic() < end: taut.unwrap(V, F, tolerance=1e-9)
+"""
+
+
+def beside(code, count=1):
+    """A thread counts for four seconds beside processes that run Python code, once each has written a line."""
+    children = [subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) for _ in range(count)]
+    for child in children:
+        child.stdout.readline()
+    result = counting(lambda: time.sleep(4))
+    for child in children:
+        child.kill()
+        child.wait()
+        child.stdout.close()
+    return result
 
 
 def rates():
     V, F = bowl_of(250)
-    os.environ.setdefault("TAUT_THREADS", "1")
+    taut.unwrap(V, F, tolerance=1e-9)
     alone = counting(lambda: time.sleep(2))
 
     def solve():
-        end = time.monotonic() + 2
+        end = time.monotonic() + 4
         while time.monotonic() < end:
             taut.unwrap(V, F, tolerance=1e-9)
 
-    def burn():  # as busy, without Python: a process that takes as many processors
-        import subprocess
-        code = "import time\nend = time.monotonic() + 2\nwhile time.monotonic() < end: pass"
-        children = [subprocess.Popen([sys.executable, "-c", code]) for _ in range(os.cpu_count() or 1)]
-        for child in children:
-            child.wait()
-
-    during, beside = counting(solve), counting(burn)
-    return f"{during / alone:.2f} of the rate alone; {beside / alone:.2f} beside as many busy processes as processors"
+    tests = str(pathlib.Path(__file__).resolve().parents[1] / "python" / "tests")
+    rows = {
+        "a solve in this process": counting(solve),
+        "the same solve in another process": beside(SOLVES.format(tests=tests)),
+        "one busy process": beside("print(flush=True)\nwhile True: pass"),
+        "as many busy processes as processors": beside("print(flush=True)\nwhile True: pass", os.cpu_count() or 1),
+    }
+    return "".join(
+        f"\n  beside {name}: {rate / alone[0]:.2f} of the rate alone; {waiting:.2f} of the time waiting for a processor, "
+        f"{lock:.3f} for the interpreter's lock" for name, (rate, _, waiting, lock) in rows.items())
 
 
 def sessions():
@@ -114,13 +152,19 @@ def interruptions():
     return f"50 of 50 ended, median {np.median(late):.3f} s, latest {max(late):.3f} s after the signal, {best} with a map"
 
 
-if __name__ == "__main__":
+def maps():
     V, F = bowl_of(106)
-    print(f"map of {len(F)} triangles:", times(lambda: taut.unwrap(V, F), 15))
-    V1, F1 = bowl_of(224)
-    print(f"atlas of {len(F1)} triangles, repair=False:", times(lambda: taut.atlas(V1, F1, repair=False), 3))
-    print(f"atlas of {len(F1)} triangles:", times(lambda: taut.atlas(V1, F1), 3))
-    print("frame of a session, one step:", frames())
-    print("counting thread:", rates())
-    print("sessions:", sessions())
-    print("Ctrl-C:", interruptions())
+    return f"{len(F)} triangles, " + times(lambda: taut.unwrap(V, F), 15)
+
+
+def atlases():
+    V, F = bowl_of(224)
+    checked, repaired = (times(lambda: taut.atlas(V, F, repair=r), 3) for r in (False, True))
+    return f"{len(F)} triangles, repair=False, {checked}; with repair, {repaired}"
+
+
+PARTS = {"maps": maps, "atlases": atlases, "frames": frames, "counting": rates, "sessions": sessions, "interrupts": interruptions}
+
+if __name__ == "__main__":
+    for part in sys.argv[1:] or PARTS:
+        print(f"{part}: {PARTS[part]()}", flush=True)

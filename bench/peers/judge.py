@@ -22,6 +22,23 @@ def read_off(path):
     return V, np.array(faces)
 
 
+def read_obj(path):
+    """Coordinates by corner, vertices and triangles of a Wavefront file with texture coordinates; polygons become fans."""
+    V, t, F, T = [], [], [], []
+    for line in open(path, encoding="utf-8", errors="replace"):
+        words = line.split()
+        if words[:1] == ["v"]:
+            V.append([float(w) for w in words[1:4]])
+        elif words[:1] == ["vt"]:
+            t.append([float(w) for w in words[1:3]])
+        elif words[:1] == ["f"]:
+            corners = [[int(w) for w in c.split("/")[:2]] for c in words[1:]]
+            for i in range(1, len(corners) - 1):
+                F.append([corners[k][0] - 1 for k in (0, i, i + 1)])
+                T.append([corners[k][1] - 1 for k in (0, i, i + 1)])
+    return np.array(t)[np.array(T)], np.array(V), np.array(F)
+
+
 def load(path):
     """Vertices and triangles that a peer leaves, mostly those that it got, and coordinates by corner, (m, 3, 2)."""
     made = np.load(path)

@@ -3,8 +3,10 @@
 
 import math
 import pathlib
+import shlex
 
-COLUMNS = ["peer", "s", "MB", "charts", "seam", "E", "flips", "overlap", "use"]
+COLUMNS = ["peer", "s", "processor s", "MB", "charts", "seam", "E", "flips", "overlap", "use"]
+VOLUME_COLUMNS = ["peer", "s", "processor s", "MB", "E", "inverted", "smallest det", "pins"]
 
 
 def number(value, digits=3):
@@ -15,13 +17,15 @@ def number(value, digits=3):
     return f"{value:.{digits}g}" if value < 1000 else f"{value:,.0f}"
 
 
-def row_of(r):
+def row_of(r, columns):
     if "error" in r:
-        return f"| {r['peer']} | {r['error'].replace('|', '/')} | | | | | | | |"
+        return f"| {r['peer']} | {r['error'].replace('|', '/')} |" + " |" * (len(columns) - 2)
     flips = f"**{r['flips']}**" if r["flips"] else "0"
+    start = f"| {r['peer']} | {number(r['seconds'])} | {number(r['processor'])} | {r['megabytes']:.0f} | "
+    if r["kind"] == "volume":
+        return f"{start}{number(r['energy'], 5)} | {flips} | {number(r['smallest'])} | {number(r['pins'], 2)} |"
     overlap = "0" if r["overlap"] == 0 else f"**{100 * r['overlap']:.2g} %**"
-    return (f"| {r['peer']} | {number(r['seconds'])} | {r['megabytes']:.0f} | {r['charts']} | {number(r['seam'])} | "
-            f"{number(r['energy'], 5)} | {flips} | {overlap} | {100 * r['use']:.0f} % |")
+    return f"{start}{r['charts']} | {number(r['seam'])} | {number(r['energy'], 5)} | {flips} | {overlap} | {100 * r['use']:.0f} % |"
 
 
 def interrupts(rows):
@@ -54,47 +58,99 @@ def plot(path, rows, kind, x, y, labels):
     figure.savefig(path, metadata={"Date": None})
 
 
+HEADS = {
+    "atlas": "## Atlases of closed surfaces\n\n![Seam length over processor seconds](../images/peers-seams.svg)\n\n",
+    "disk": "## Maps of disks\n\n![Distortion over processor seconds](../images/peers-distortion.svg)\n\n",
+    "volume": """## Volumes
+
+A bar of cubes of six tetrahedra each, whose ends are pinned, one of them turned by 90 and 150 degrees. *E*: the mean of |S|² |S⁻¹|² / 9, 1 for
+similarities; each peer minimises an energy of its own. *smallest det*: of all tetrahedra. *pins*: the farthest from its place; the bar is 1 wide.
+
+""",
+}
+
+
+def sentences(rows):
+    """What the tables say in words: where a peer was better than taut, by each measure, on how many meshes."""
+    words = []
+    for kind, mine in (("atlas", "taut"), ("disk", "taut unwrap"), ("volume", "taut deform")):
+        of_kind = [r for r in rows if r["kind"] == kind and "error" not in r]
+        ours = {r["mesh"]: r for r in of_kind if r["peer"] == mine}
+        names = {"atlas": {"processor": "less processor time", "seam": "shorter seams", "energy": "less distortion", "use": "a fuller square"},
+                 "disk": {"processor": "less processor time", "energy": "less distortion"},
+                 "volume": {"processor": "less processor time", "energy": "less distortion"}}[kind]
+        for peer in dict.fromkeys(r["peer"] for r in of_kind if not r["peer"].startswith("taut")):
+            theirs = [r for r in of_kind if r["peer"] == peer and r["mesh"] in ours]
+            better = []
+            for key, name in names.items():
+                sign = -1 if key == "use" else 1
+                count = sum(sign * r[key] < sign * ours[r["mesh"]][key] for r in theirs)
+                if count:
+                    better.append(f"{name} {count}")
+            bad = sum(r["flips"] > 0 or r.get("overlap", 0) > 1e-4 for r in theirs)
+            if better:
+                words.append(f"| {peer} | {mine} | {len(theirs)} | {', '.join(better)} | {bad or ''} |")
+    return words
+
+
+def busy(rows):
+    """A sentence's end on how busy the machine was, by what calls of single threads waited."""
+    waits = [r["seconds"] / r["processor"] for r in rows if r.get("processor", 0) > 0.2]
+    often = sorted(waits)[len(waits) // 2] if waits else 1
+    return f" (as here: the median call took {often:.1f} s a processor second)" if often > 1.2 else ""
+
+
+def told(words):
+    """The arguments, but for where the environment lies."""
+    at = words.index("--folder") if "--folder" in words else len(words)
+    return words[:at] + words[at + 2:]
+
+
 def write(path, rows, command, machine, cores):
     path = pathlib.Path(path)
     images = path.resolve().parents[1] / "images"
-    plot(images / "peers-seams.svg", rows, "atlas", "seconds", "seam", ("seconds", "seam length / sqrt(area)"))
-    plot(images / "peers-distortion.svg", rows, "disk", "seconds", "energy", ("seconds", "mean symmetric Dirichlet energy"))
-    versions = {r["peer"].split()[0]: r["version"] for r in rows if "version" in r}
+    plot(images / "peers-seams.svg", rows, "atlas", "processor", "seam", ("processor seconds", "seam length / sqrt(area)"))
+    plot(images / "peers-distortion.svg", rows, "disk", "processor", "energy", ("processor seconds", "mean symmetric Dirichlet energy"))
+    versions = {r["peer"].split()[0]: r["version"] for r in rows if r.get("version")}
     text = f"""# Comparison with other packages
 
-`{' '.join(['bench/peers.py', *command[1:]])}` made this page, in one run on {cores} cores of {machine}. Each row is one process; seconds are those of the
-call, once, with its kernels compiled before where there are any; MB is the peak of the process. What is made is judged by `bench/peers/judge.py`, in which no package has a part. Meshes are of Debian's
-`libcgal-demo`. A peer that leaves another mesh is judged on that one. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
+```sh
+{shlex.join(['bench/peers.py', *told(command[1:])])}
+```
+
+made this page, in one run on {cores} cores of {machine}. Each run is a process of its own; *s* are seconds of the call, the median of up to {max(r.get('runs', 1) for r in rows)} runs
+(of one, where it takes long), with kernels compiled before where there are any; *processor s* are those of all its threads, which say more where others use the machine, too{busy(rows)}. *MB* is the peak of the process. What is made is judged by `bench/peers/judge.py` and `volumes.py`, in which no package has a part.
+Meshes are of Debian's `libcgal-demo`. A peer that leaves another mesh is judged on that one. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
 
 * *seam*: length of the edges that are cut, by the root of the area. *E*: area mean of |S|² (1 + 1/det²) at one common scale, 4 without distortion.
-* *flips*: triangles turned over within their chart. *overlap*: the part of what is covered that is covered twice, of 2048² points; less than a few 0.001 % may be rounding.
+* *flips*: triangles flipped within their chart. *overlap*: the part of what is covered that is covered twice, of 2048² points; less than a few 0.001 % may be rounding.
 * *use*: area of the charts by that of the square around them.
+* *taut*: its default, short seams. *taut for packing*: `prefer="packing"`, more and flatter charts, as most others make.
 
 Versions: {', '.join(f'{k} {v}' for k, v in sorted(versions.items()))}.
 
-## Atlases of closed surfaces
+## Where others are better
 
-![Seam length over seconds](../images/peers-seams.svg)
+On how many of the meshes that it ends on a peer is better than taut, and on how many it leaves flips, or more than 0.01 % covered twice.
 
-"""
-    for kind in ("atlas", "disk"):
-        if kind == "disk":
-            text += """## Maps of disks
-
-![Distortion over seconds](../images/peers-distortion.svg)
-
-"""
+| peer | against | meshes | better | flips or overlaps |
+|---|---|---|---|---|
+""" + "\n".join(sentences(rows)) + "\n\n"
+    for kind in dict.fromkeys(r["kind"] for r in rows):
+        text += HEADS[kind]
+        columns, cells = (VOLUME_COLUMNS, "tetrahedra") if kind == "volume" else (COLUMNS, "triangles")
         for mesh in dict.fromkeys(r["mesh"] for r in rows if r["kind"] == kind):
             mine = [r for r in rows if r["kind"] == kind and r["mesh"] == mesh]
-            text += f"### {mesh}, {mine[0]['triangles']:,} triangles\n\n| " + " | ".join(COLUMNS) + " |\n"
-            text += "|" + "---|" * len(COLUMNS) + "\n" + "\n".join(row_of(r) for r in mine) + "\n\n"
+            text += f"### {mesh}, {mine[0]['size']:,} {cells}\n\n| " + " | ".join(columns) + " |\n"
+            text += "|" + "---|" * len(columns) + "\n" + "\n".join(row_of(r, columns) for r in mine) + "\n\n"
     lines = interrupts(rows)
     if lines:
         text += """## Ctrl-C
 
-Seconds from a Ctrl-C in the middle of the call to the end of the process.
+Seconds from a Ctrl-C in the middle of the call to the end of the process, on the last mesh of each kind, of calls that take more than half a second.
+The process of taut waits for the piece of work that is under way; the call itself raises half a second after the signal at the latest.
 
 | peer | mesh | seconds of the call | ended after |
 |---|---|---|---|
 """ + "\n".join(lines) + "\n"
-    path.write_text(text)
+    path.write_text(text.rstrip("\n") + "\n", encoding="utf-8")

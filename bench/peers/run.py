@@ -1,20 +1,29 @@
 # SPDX-License-Identifier: MIT
-"""run.py PEER MESH OUT.npz: one peer on one mesh, timed; OUT has coordinates by corner. Beside it OUT.npz.json."""
+"""run.py PEER MESH OUT.npz [COMMAND ...]: one peer on one mesh, timed; OUT has coordinates by corner, of a volume (an .npz) by vertex.
+Beside it OUT.npz.json. With a command that is the peer: {in} and {out} in it are Wavefront files."""
 
 import json
 import pathlib
+import resource
+import subprocess
 import sys
+import tempfile
 import time
 
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-from peers import judge  # noqa: E402
+from peers import judge, volumes  # noqa: E402
 
 
 def taut(V, F):
     import taut
     return (lambda: taut.atlas(V, F).corner_uv), taut.__version__
+
+
+def taut_packing(V, F):
+    import taut
+    return (lambda: taut.atlas(V, F, prefer="packing").corner_uv), taut.__version__
 
 
 def taut_xatlas(V, F):
@@ -206,6 +215,7 @@ def blender(operator, **options):
 
 PEERS = {
     "taut": taut,
+    "taut for packing": taut_packing,
     "taut one line of xatlas": taut_xatlas,
     "taut unwrap": taut_unwrap,
     "xatlas": xatlas,
@@ -225,19 +235,49 @@ PEERS = {
 }
 
 
+def program(words):
+    """A program of its own: it gets the mesh as a Wavefront file, and leaves one with texture coordinates."""
+    def make(V, F):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        names = {"{in}": str(folder / "in.obj"), "{out}": str(folder / "out.obj")}
+        with open(names["{in}"], "w", encoding="utf-8") as f:
+            f.writelines(f"v {x:.17g} {y:.17g} {z:.17g}\n" for x, y, z in V.tolist())
+            f.writelines(f"f {a} {b} {c}\n" for a, b, c in (F + 1).tolist())
+
+        def run():
+            subprocess.run([names.get(w, w) for w in words], check=True, stdout=subprocess.DEVNULL)
+            return judge.read_obj(names["{out}"])
+        return run, ""
+    return make
+
+
+def processor_seconds():
+    return sum(sum(resource.getrusage(who)[:2]) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+
+
 def main():
-    peer, mesh, out = sys.argv[1:4]
-    V, F = judge.read_off(mesh)
-    run, version = PEERS[peer](V, F)
+    peer, mesh, out, *words = sys.argv[1:]
+    if mesh.endswith(".npz"):
+        given = [np.load(mesh)[name] for name in ("V", "T", "b", "bc")]
+        run, version = volumes.PEERS[peer](*given)
+    else:
+        V, F = judge.read_off(mesh)
+        run, version = (program(words) if words else PEERS[peer])(V, F)
     print("begin", flush=True)
-    start = time.perf_counter()
-    uv = run()
-    seconds = time.perf_counter() - start
+    start, used = time.perf_counter(), processor_seconds()
+    made = run()
+    seconds, used = time.perf_counter() - start, processor_seconds() - used
     status = pathlib.Path("/proc/self/status").read_text()  # unlike getrusage() it forgets the parent at exec
     peak = int(status.split("VmHWM:")[1].split()[0]) / 1024
-    uv, V, F = uv if isinstance(uv, tuple) else (uv, V, F)
-    np.savez(out, corner_uv=uv, V=V, F=F)
-    pathlib.Path(out + ".json").write_text(json.dumps({"seconds": seconds, "megabytes": peak, "version": version}))
+    if words:
+        peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    if mesh.endswith(".npz"):
+        np.savez(out, x=made)
+    else:
+        uv, V, F = made if isinstance(made, tuple) else (made, V, F)
+        np.savez(out, corner_uv=uv, V=V, F=F)
+    pathlib.Path(out + ".json").write_text(
+        json.dumps({"seconds": seconds, "processor": used, "megabytes": peak, "version": version}))
 
 
 if __name__ == "__main__":

@@ -18,18 +18,40 @@ ArrayLike = Union[npt.ArrayLike, None]
 _READ = "fiu"  # kinds of numbers that the library reads where they lie
 
 
-def _numbers(name: str, value: Any) -> Array:
+def _numbers(name: str, value: Any, *, nan: bool = False) -> Array:
+    """An array of numbers that the library reads, with NaN for what is masked if that may be."""
     try:
+        if np.ma.is_masked(value):
+            if not nan:
+                bad = _first(np.ma.getmaskarray(value))
+                where = f"row {bad[0]}" if bad else "the value"
+                raise ParameterError(f"{name}: {where} is masked; fill it in, or leave it out", field=name, ids=bad[:1])
+            value = value.astype(np.float64).filled(np.nan)
         a = np.asarray(value)
-        if a.dtype.kind == "c":
-            raise TypeError("complex ones")
+        if a.dtype.kind in "cmM":
+            raise TypeError(f"they are of the type {a.dtype}")
         if a.dtype.kind not in _READ + "b" or not a.dtype.isnative or a.dtype.itemsize not in (1, 2, 4, 8):
-            a = a.astype(np.float64)
+            with np.errstate(over="ignore"):  # is said of the row, as of other infinite numbers
+                a = a.astype(np.float64)
         elif a.dtype.kind == "f" and a.dtype.itemsize == 2:
             a = a.astype(np.float32)
-    except (TypeError, ValueError) as e:
-        raise ParameterError(f"{name}: these are no numbers: {e}", field=name) from None
+    except (TypeError, ValueError, OverflowError) as e:
+        if isinstance(e, ParameterError):
+            raise
+        raise ParameterError(f"{name}: {_no_numbers(value, e)}", field=name) from None
+    if value is None:
+        raise ParameterError(f"{name}: is None, but must be an array of numbers", field=name)
     return a
+
+
+def _no_numbers(value: Any, error: Exception) -> str:
+    """Why an argument is no array of numbers."""
+    if "inhomogeneous" in str(error):
+        sizes = [len(row) if hasattr(row, "__len__") else 0 for row in value]
+        other = next((k for k, size in enumerate(sizes) if size != sizes[0]), None)
+        if other is not None:
+            return f"row {other} has {sizes[other]} numbers, and row 0 has {sizes[0]}; all rows must have as many"
+    return f"these are no numbers: {error}"
 
 
 def array(name: str, value: Any) -> Floats:
@@ -41,16 +63,26 @@ def _first(bad: Array) -> tuple[int, ...]:
     return tuple(int(i) for i in np.argwhere(bad)[0])
 
 
-def _shape(name: str, a: Array, columns: tuple[int, ...]) -> None:
-    if a.ndim != 2 or a.shape[1] not in columns:
-        words = " or ".join(f"(n, {c})" for c in columns)
-        raise ParameterError(f"{name}: has the shape {a.shape}, but must be {words}", field=name)
+def _shape(name: str, a: Array, columns: tuple[int, ...]) -> Array:
+    """The array, looked at; an empty one of one dimension, as of an empty list, has no rows."""
+    if a.shape == (0,):
+        return a.reshape(0, columns[0])
+    if a.ndim == 2 and a.shape[1] in columns:
+        return a
+    words = " or ".join(f"(n, {c})" for c in columns)
+    remedy = ""
+    if a.ndim == 2 and a.shape[0] in columns:
+        remedy = "; it may be transposed"
+    elif a.ndim == 1:
+        remedy = "; reshape it to one row each"
+    elif a.ndim == 2 and columns == (3,) and a.shape[1] == 4 and a.dtype.kind in "iu":
+        remedy = "; split quads into triangles"
+    raise ParameterError(f"{name}: has the shape {a.shape}, but must be {words}{remedy}", field=name)
 
 
 def points(name: str, value: Any, columns: tuple[int, ...] = (3,), *, rows: int | None = None, nan: bool = False) -> Array:
     """Coordinates, a point a row. Raises `ParameterError` for another shape and for what is not finite."""
-    a = _numbers(name, value)
-    _shape(name, a, columns)
+    a = _shape(name, _numbers(name, value, nan=nan), columns)
     if rows is not None and a.shape[0] != rows:
         raise ParameterError(f"{name}: has {a.shape[0]} rows, but must have {rows}", field=name)
     if a.dtype.kind == "f":
@@ -65,8 +97,9 @@ def points(name: str, value: Any, columns: tuple[int, ...] = (3,), *, rows: int 
 
 def indices(name: str, value: Any, columns: tuple[int, ...], count: int) -> Array:
     """Vertex numbers, a cell a row. Raises `ParameterError` for what is out of range."""
-    a = _numbers(name, value)
-    _shape(name, a, columns)
+    a = _shape(name, _numbers(name, value), columns)
+    if a.dtype.kind == "b" and a.size:
+        raise ParameterError(f"{name}: are flags, but must be vertex numbers", field=name)
     return _in_range(name, a, count)
 
 
@@ -84,18 +117,16 @@ def ids(name: str, value: Any, count: int) -> Array:
 
 def _in_range(name: str, a: Array, count: int) -> Array:
     if a.dtype.kind == "f":
-        if a.size and not (np.isfinite(a).all() and (a == np.floor(a)).all()):
-            bad = _first(~(a == np.floor(a)) | ~np.isfinite(a))
+        broken = ~np.isfinite(a) | (a != np.floor(a))
+        if broken.any():
+            bad = _first(broken)
             raise ParameterError(f"{name}: row {bad[0]} has {a[bad]}, which is no index", field=name, ids=[bad[0]])
-        a = a.astype(np.int64)
-    if a.dtype.kind == "b":
-        a = a.astype(np.int64)
-    if a.size and (int(a.min()) < 0 or int(a.max()) >= count):
-        bad = _first((a < 0) | (a >= count))
-        raise ParameterError(
-            f"{name}: row {bad[0]} names {a[bad]}, but numbers go from 0 to {count - 1}", field=name, ids=[bad[0]]
-        )
-    return a
+    outside = (a < 0) | (a >= count)
+    if outside.any():
+        bad = _first(outside)
+        numbers = f"numbers go from 0 to {count - 1}" if count else "there are none"
+        raise ParameterError(f"{name}: row {bad[0]} names {int(a[bad])}, but {numbers}", field=name, ids=[bad[0]])
+    return a.astype(np.int64) if a.dtype.kind in "fb" else a
 
 
 def numbers(name: str, value: Any, rows: int | None = None, *, columns: bool = False) -> Array:

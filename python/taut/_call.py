@@ -9,6 +9,8 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Any, TypeVar, Union
 
+import numpy as np
+
 from ._native import native
 from .errors import Cancelled, Interrupted, NoMap, ParameterError
 
@@ -17,6 +19,9 @@ T = TypeVar("T")
 #: A function of a `Progress` whose answer of False ends the call with the best result so far; True: a line on standard
 #: error, or a bar of tqdm where that is installed.
 ProgressLike = Union[Callable[[Any], Any], bool, None]
+
+#: Options that are whole numbers, which may be given as floats that are.
+_WHOLE = ("resolution", "max_resolution", "padding", "tiles", "align", "iterations")
 
 _watching: ContextVar[Any] = ContextVar("taut_control", default=None)
 
@@ -73,7 +78,7 @@ def named(names: Mapping[str, str]) -> Iterator[None]:
     try:
         yield
     except ParameterError as e:
-        begin = f"parameter {e.field}: "
+        begin = f"{e.field}: "
         if not str(e).startswith(begin):
             raise
         name, what = names.get(str(e.field), str(e.field)), str(e)[len(begin) :]
@@ -94,8 +99,14 @@ def call(
     make : turns what the library returns into a result; raises `NoMap` where it is none.
     names : as of `named()`
     """
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        raise ParameterError(f"progress: is {progress!r}, but must be a function, or True for a line", field="progress")
     line = _Line() if progress is True else None
     options = args[-1]
+    for name in _WHOLE:
+        value = options.get(name)
+        if isinstance(value, (float, np.floating)) and float(value).is_integer():
+            options[name] = int(value)
     options["progress"] = line if progress is True else progress or None
     try:
         with named(names or {}):

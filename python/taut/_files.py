@@ -90,7 +90,13 @@ def read(path: PathLike, *, zone: int = 0, texcoord_set: int = 0) -> Mesh:
     elif extension in _SURFACES:
         d = native().read_surface(name)
     else:
-        d = native().read_volume(name, zone)
+        try:
+            d = native().read_volume(name, zone)
+        except FileError as e:
+            if "unknown kind of file" not in str(e):
+                raise
+            kinds = f"; surfaces are read from {', '.join(_SURFACES)}, models from {', '.join(_MODELS)}, volumes"
+            raise FileError(str(e).replace("; volumes", kinds), path=name) from None
         d["cells"] = {k: np.concatenate(v).astype(np.int64) for k, v in d["cells"].items()}
         d.pop("format")
     if d.get("corner_uv") is not None:
@@ -133,26 +139,12 @@ def write(
     x : (n, 3) array-like
         Places of vertices.
     V, F : array-like
-        Without `like`: a new OBJ or glTF file, with `uv`.
+        Without `like`: a new OBJ file, or with `uv` a new glTF file.
     """
     name = os.fspath(path)
     extension = Path(name).suffix.lower()
     if like is None:
-        points, faces = _options.surface(V, F, planar=False)
-        if uv is None:
-            raise ParameterError("uv: a new file needs texture coordinates", field="uv")
-        if extension in _MODELS:
-            native().write_new_model(name, points, faces, _uv_rows(uv, faces, len(points)))
-            return
-        if extension != ".obj":
-            raise FileError(f"{name}: new files are .obj, .gltf or .glb")
-        if isinstance(uv, Atlas):
-            native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
-            return
-        if isinstance(uv, Map) and uv.faces is not None and uv.vmapping is not None:
-            native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
-            return
-        native().write_new_surface(name, points, faces, _arrays.points("uv", uv, (2,), rows=len(points)))
+        _write_new(name, extension, V, F, uv)
         return
     mesh = like if isinstance(like, Mesh) else read(like)
     if (x is None) == (uv is None):
@@ -171,6 +163,45 @@ def write(
         return
     native().write_surface_uv(name, mesh.path, rows)
     return
+
+
+def _write_new(name: str, extension: str, V: Any, F: Any, uv: Any) -> None:
+    """Arrays as a new OBJ or glTF file."""
+    if extension not in (".obj", *_MODELS):
+        raise FileError(f"{name}: new files are .obj, .gltf or .glb", path=name)
+    points, faces = _options.surface(V, F, planar=False)
+    if extension in _MODELS:
+        if uv is None:
+            raise ParameterError("uv: is not given, and a new glTF file needs texture coordinates", field="uv")
+        native().write_new_model(name, points, faces, _uv_rows(uv, faces, len(points)))
+    elif uv is None:
+        _write_bare(name, points, faces)
+    elif isinstance(uv, Atlas) or isinstance(uv, Map) and uv.faces is not None and uv.vmapping is not None:
+        native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
+    elif np.ndim(uv) == 2 or isinstance(uv, Map):
+        per_vertex = _arrays.points("uv", getattr(uv, "uv", uv), (2,), rows=len(points))
+        native().write_new_surface(name, points, faces, per_vertex)
+    else:
+        # A vertex for each that has its own coordinates in some triangle.
+        corners = np.c_[faces.reshape(-1), _uv_rows(uv, faces, len(points))]
+        rows, corner = np.unique(corners, axis=0, return_inverse=True)
+        vertices = rows[:, 0].astype(np.int64)
+        native().write_new_surface(name, np.asarray(points)[vertices], corner.reshape(-1, 3), rows[:, 1:])
+
+
+def _write_bare(name: str, points: Array, faces: Array) -> None:
+    """An OBJ file without texture coordinates, which reads back bit for bit."""
+    lines = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in points.astype(np.float64).tolist()]
+    lines += [f"f {a} {b} {c}\n" for a, b, c in (faces.astype(np.int64) + 1).tolist()]
+    part = f"{name}.{os.getpid()}.part"
+    try:
+        with open(part, "w", encoding="ascii") as file:
+            file.writelines(lines)
+        os.replace(part, name)
+    except OSError as e:
+        if os.path.exists(part):
+            os.unlink(part)
+        raise FileError(f"{name}: {e.strerror}", path=name) from None
 
 
 def devices() -> list[Device]:

@@ -127,13 +127,21 @@ def unwrap(
     return call(native().unwrap, points, faces, options, progress=progress, make=Map.of)
 
 
-def _map_of(C: Any, x: Any) -> tuple[Any, Any, int]:
+def _map_of(C: Any, x: Any, V: Any = None) -> tuple[Any, Any, int, Any]:
+    """Cells, where the map has vertices, the dimension, and vertices at rest if these are given, too."""
     cells = np.asarray(C)
     if cells.ndim != 2 or cells.shape[1] not in (3, 4):
         raise ParameterError(f"C: has the shape {cells.shape}, but must be (m, 3) or (m, 4)", field="C")
     dim = cells.shape[1] - 1
-    points = _arrays.points("x", x, (dim,))
-    return _arrays.indices("C", cells, (dim + 1,), len(points)), points, dim
+    rest = None if V is None else _arrays.points("V", V, (2, 3) if dim == 2 else (3,))
+    points = _arrays.points("x", x, (dim,), rows=None if rest is None else len(rest))
+    return _arrays.indices("C", C, (dim + 1,), len(points)), points, dim, rest
+
+
+def _given(name: str, value: Any) -> Any:
+    if value is None:
+        raise ParameterError(f"{name}: is None, but must be an array of numbers", field=name)
+    return value
 
 
 def certify(C: ArrayLike, x: ArrayLike) -> Certificate:
@@ -154,7 +162,7 @@ def certify(C: ArrayLike, x: ArrayLike) -> Certificate:
     >>> taut.certify([[0, 2, 1]], [[0, 0], [1, 0], [0, 1]]).flipped.tolist()
     [0]
     """
-    cells, points, dim = _map_of(C, x)
+    cells, points, dim, _ = _map_of(C, x)
     return Certificate.of(getattr(native(), f"certify{dim}")(cells, points))
 
 
@@ -168,8 +176,7 @@ def distortion(V: ArrayLike, C: ArrayLike, x: ArrayLike) -> Floats:
     >>> taut.distortion([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [[0, 0], [2, 0], [0, 1]])
     array([6.25])
     """
-    cells, points, dim = _map_of(C, x)
-    rest = _arrays.points("V", V, (2, 3) if dim == 2 else (3,), rows=len(points))
+    cells, points, dim, rest = _map_of(C, x, _given("V", V))
     values: Floats = getattr(native(), f"distortion{dim}")(rest, cells, points)
     return values
 
@@ -183,8 +190,7 @@ def quality(V: ArrayLike, C: ArrayLike, x: ArrayLike) -> dict[str, Any]:
         "isometric", "shape", "area": means, "uniform" and by "measure"; "stretch_l2", "stretch_linf", "area_ratio":
         "min", "max", "rms"; "stretch_l2_total"; "angular"; "scale"; "flips".
     """
-    cells, points, dim = _map_of(C, x)
-    rest = _arrays.points("V", V, (2, 3) if dim == 2 else (3,), rows=len(points))
+    cells, points, dim, rest = _map_of(C, x, _given("V", V))
     found: dict[str, Any] = getattr(native(), f"quality{dim}")(rest, cells, points)
     found["flips"] = Certificate.of(found["flips"])
     return found

@@ -30,10 +30,8 @@ def repair(V: ArrayLike, F: ArrayLike, *, weld: float | bool = False, polygons: 
     >>> r.F.tolist(), r.notes
     ([[0, 1, 2]], ['1 triangle (1) naming a vertex twice; left out'])
     """
-    points = _arrays._numbers("V", V)
-    _arrays._shape("V", points, (3,))
-    faces = _arrays._numbers("F", F)
-    _arrays._shape("F", faces, (3,))
+    points = _arrays._shape("V", _arrays._numbers("V", V, nan=True), (3,))
+    faces = _arrays._shape("F", _arrays._numbers("F", F), (3,))
     options: dict[str, Any] = {"usual_weld": weld is True}
     if weld is not True and weld is not False:
         options["weld"] = float(weld)

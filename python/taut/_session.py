@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _arrays, _options
-from ._arrays import Array, ArrayLike
+from ._arrays import Array, ArrayLike, Floats
 from ._call import ProgressLike, conclude, control
 from ._native import native
 from ._results import Frame
@@ -130,16 +130,27 @@ class Session:
         return pinned
 
     def _vertex(self, v: int) -> int:
+        if np.ndim(v):
+            raise ParameterError("v: is an array, but must be one vertex; move() takes several", field="v")
         return int(_arrays.ids("v", [v], self._count)[0])
+
+    def _place(self, x: ArrayLike, nan: bool = False) -> Floats:
+        """Coordinates of one vertex."""
+        place = _arrays.array("x", x)
+        if place.shape not in ((self.dim,), (1, self.dim)):
+            raise ParameterError(f"x: has the shape {place.shape}, but must be ({self.dim},)", field="x")
+        row: Floats = _arrays.points("x", place.reshape(1, -1), (self.dim,), nan=nan)[0]
+        return row
 
     def pin(self, v: int, x: ArrayLike) -> Session:
         """Pins a vertex to a place, or moves its pin there; a coordinate that is NaN is left as it is."""
-        place = _arrays.points("x", np.reshape(np.asarray(x, dtype=np.float64), (1, -1)), (self.dim,), nan=True)[0]
+        vertex = self._vertex(v)
+        place = self._place(x, nan=True)
         if np.isnan(place).any():
             for k in np.flatnonzero(~np.isnan(place)):
-                self._session.pin_coordinate(self._vertex(v), int(k), float(place[k]))
+                self._session.pin_coordinate(vertex, int(k), float(place[k]))
         else:
-            self._session.pin(self._vertex(v), place)
+            self._session.pin(vertex, place)
         return self
 
     def pin_u(self, v: int, u: float) -> Session:
@@ -164,8 +175,9 @@ class Session:
 
     def spring(self, v: int, x: ArrayLike, weight: float) -> Session:
         """Draws a vertex to a place, instead of another spring that it has."""
-        place = _arrays.points("x", np.reshape(np.asarray(x, dtype=np.float64), (1, -1)), (self.dim,))[0]
-        self._session.spring(self._vertex(v), place, float(weight))
+        vertex = self._vertex(v)
+        place = self._place(x)
+        self._session.spring(vertex, place, float(weight))
         return self
 
     def release(self, vs: ArrayLike = None) -> Session:

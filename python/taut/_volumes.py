@@ -13,14 +13,22 @@ from ._call import ProgressLike, call
 from ._native import native
 from ._results import Map
 from ._trace import EnergyLike
-from .errors import ParameterError
+from .errors import MeshError, ParameterError
+
+
+def _is_table(rows: Any) -> bool:
+    """Whether these are rows of numbers, not one row."""
+    shape = getattr(rows, "shape", None)
+    return len(shape) == 2 if shape is not None else bool(len(rows)) and hasattr(rows[0], "__len__")
 
 
 def _blocks(V: Any, C: Any) -> tuple[Array, list[Array], int]:
     """Points, cells by kind, and the dimension: that of the points, or 2 for triangles and quads with z = 0."""
     points = _arrays.points("V", V, (2, 3))
-    given = C if isinstance(C, (list, tuple)) and len(C) and np.ndim(C[0]) == 2 else [C]
+    given = C if isinstance(C, (list, tuple)) and len(C) and _is_table(C[0]) else [C]
     blocks = [np.ascontiguousarray(_arrays.indices("C", c, (3, 4, 5, 6, 8), len(points))) for c in given]
+    if not any(len(c) for c in blocks):
+        raise MeshError("the mesh has no cells; give it at least one", fault="empty")
     dim = 2 if points.shape[1] == 2 or all(c.shape[1] == 3 for c in blocks) else 3
     if dim == 2 and points.shape[1] == 3 and np.any(points[:, 2]):
         raise ParameterError("V: triangles that do not lie in the plane z = 0; a surface in space is a shell (taut.shell)",

@@ -47,6 +47,10 @@ class TautError(RuntimeError):
 class ParameterError(TautError, ValueError):
     """An argument outside of its domain; `field` names it."""
 
+    def __init__(self, message: str = "", **more: Any) -> None:
+        # The library calls arguments parameters; here they are called by their names alone.
+        super().__init__(message.removeprefix("parameter "), **more)
+
 
 class MeshError(TautError, ValueError):
     """A mesh that cannot be used; `fault` says why, `ids` where."""

@@ -100,3 +100,64 @@ def test_quality_is_one_of_a_flat_surface():
     flat = np.c_[V[:, :2], np.zeros(len(V))]
     q = taut.quality(flat, F, V[:, :2])
     assert q["isometric"]["measure"] == pytest.approx(4) and q["flips"] and q["area_ratio"]["max"] == pytest.approx(1)
+
+
+def test_what_is_masked_is_not_read(bowl):
+    V, F = bowl
+    masked = np.ma.masked_array(V, mask=np.zeros(V.shape, bool))
+    assert taut.distortion(masked, F, V[:, :2]).shape == (len(F),)
+    masked[3, 1] = np.ma.masked
+    with pytest.raises(taut.ParameterError, match="V: row 3 is masked") as e:
+        taut.unwrap(masked, F)
+    assert e.value.ids == [3]
+    triangles = np.ma.masked_array(F, mask=np.zeros(F.shape, bool))
+    triangles[5] = np.ma.masked
+    with pytest.raises(taut.ParameterError, match="F: row 5 is masked"):
+        taut.unwrap(V, triangles)
+    # Of pins it is a coordinate that is free, as NaN is.
+    places = np.ma.masked_array([[0.5, 0.25]], mask=[[False, True]])
+    assert taut.unwrap(V, F, b=[0], bc=places).uv[0, 0] == 0.5
+
+
+@pytest.mark.parametrize("V, F", [([], []), (np.zeros((0, 3)), np.zeros((0, 3), int)), ([[0, 0, 0]], [])])
+def test_an_empty_mesh_is_one_without_triangles(V, F):
+    for call in (taut.unwrap, taut.atlas, taut.repair, taut.Session, taut.deform, taut.smooth):
+        with pytest.raises(taut.MeshError, match="at least one") as e:
+            call(V, F)
+        assert e.value.fault == "empty"
+    assert taut.certify(np.zeros((0, 3), int), np.zeros((0, 2)))
+
+
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        (lambda V, F: (V, F.astype(bool)), ["F", "flags"]),
+        (lambda V, F: (V, np.where(F == 40, 2**32 + 40, F)), ["F", "4294967336", "0 to 288"]),
+        (lambda V, F: (V, [[0, 1, 2**70]]), ["F", str(2**70), "0 to 288"]),
+        (lambda V, F: (V, [[0, 1, 2], [0, 1]]), ["F", "row 1 has 2 numbers"]),
+        (lambda V, F: (V, np.c_[F, F[:, 0]]), ["F", "split quads"]),
+        (lambda V, F: (V.T, F), ["V", "transposed"]),
+        (lambda V, F: (None, F), ["V", "None"]),
+        (lambda V, F: (V + 0j, F), ["V", "complex"]),
+        (lambda V, F: (V.astype(np.longdouble) * np.longdouble("1e4000"), F), ["V", "inf"]),
+    ],
+)
+@pytest.mark.filterwarnings("error")
+def test_surprises_of_arrays_are_told(bowl, change, words):
+    with pytest.raises(taut.ParameterError) as e:
+        taut.unwrap(*change(*bowl))
+    assert all(w in str(e.value) for w in words), str(e.value)
+    assert e.value.field == words[0]
+
+
+def test_a_map_of_too_few_rows_is_named(bowl):
+    V, F = bowl
+    for call in (taut.distortion, taut.quality):
+        with pytest.raises(taut.ParameterError, match="x: has 288 rows, but must have 289"):
+            call(V, F, V[:-1, :2])
+
+
+@pytest.mark.parametrize("size", [1e-320, 1e-200, 1e200, 1e300])
+def test_sizes_near_the_ends_of_doubles_are_mapped(bowl, size):
+    V, F = bowl
+    assert taut.unwrap(V * size, F).certified

@@ -173,3 +173,17 @@ def test_the_interpreter_ends_well_in_the_middle_of_a_call():
         time.sleep(0.3)
     """ % os.path.dirname(os.path.abspath(__file__)))
     assert done.returncode == 0, done.stderr
+
+
+def test_arguments_are_named_as_python_has_them(bowl):
+    with pytest.raises(taut.ParameterError, match="^energy: "):
+        taut.unwrap(*bowl, energy="slim")
+    with pytest.raises(taut.ParameterError, match="^progress: is 3"):
+        taut.unwrap(*bowl, progress=3)
+
+
+def test_whole_numbers_may_be_floats(bowl):
+    made = taut.atlas(*bowl, resolution=512.0, padding=np.float32(4))
+    assert (made.uv == taut.atlas(*bowl, resolution=512, padding=4).uv).all()
+    with pytest.raises(taut.ParameterError, match="resolution: is 512.5"):
+        taut.atlas(*bowl, resolution=512.5)

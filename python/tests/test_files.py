@@ -75,5 +75,32 @@ def test_faults_of_files_are_named(tmp_path, square):
         taut.write(tmp_path / "x.obj", like=square, uv=np.zeros((3, 2)))
 
 
+def test_a_new_file_needs_no_texture_coordinates(tmp_path, bowl):
+    V, F = bowl
+    V = V / 3
+    taut.write(tmp_path / "bare.obj", V=V, F=F)
+    mesh = taut.read(tmp_path / "bare.obj")
+    assert (mesh.V == V).all() and (mesh.F == F).all() and mesh.corner_uv is None
+    assert [p.name for p in tmp_path.iterdir()] == ["bare.obj"]
+    with pytest.raises(taut.FileError) as e:
+        taut.write(tmp_path / "nowhere" / "bare.obj", V=V, F=F)
+    assert "nowhere" in e.value.path
+    with pytest.raises(taut.ParameterError, match="uv"):
+        taut.write(tmp_path / "bare.glb", V=V, F=F)
+
+
+def test_a_new_file_takes_texture_coordinates_by_corner(tmp_path):
+    V, F = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]]), np.array([[0, 1, 2], [0, 2, 3]])
+    uv = np.array([[[0, 0], [1, 0], [1, 1]], [[2, 0], [3, 1], [2, 1.0]]])
+    taut.write(tmp_path / "corners.obj", V=V, F=F, uv=uv)
+    mesh = taut.read(tmp_path / "corners.obj")
+    assert (mesh.corner_uv == uv).all() and (mesh.V[mesh.F] == V[F]).all()
+
+
+def test_kinds_of_files_are_listed(tmp_path):
+    with pytest.raises(taut.FileError, match=r"[.]obj.*[.]glb.*[.]mesh"):
+        taut.read(tmp_path / "x.unknown")
+
+
 def test_devices_are_listed():
     assert any(not d.refusal for d in taut.devices())

@@ -108,3 +108,15 @@ def test_a_session_goes_on_from_a_map_that_is_given(bowl):
         assert frame.pins_held and np.allclose(frame.x, given, atol=1e-3)
     with pytest.raises(taut.ParameterError, match="initial"):
         taut.Session(V, F, initial=given[:-1])
+
+
+def test_arguments_of_pins_are_named(bowl):
+    V, F = bowl
+    with taut.Session(V, F) as s:
+        with pytest.raises(taut.ParameterError, match="v: is an array.*move"):
+            s.pin([1, 2], [[0, 0], [1, 1]])
+        with pytest.raises(taut.ParameterError, match=r"x: has the shape \(3,\), but must be \(2,\)"):
+            s.pin(1, [0, 0, 0])
+        with pytest.raises(taut.ParameterError, match="v: row 0 names -1"):
+            s.pin(-1, [0, 0])
+        assert s.pins.tolist() == []
