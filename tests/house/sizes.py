@@ -11,7 +11,7 @@ FILES, INCLUDES, LINES = 30, 8, 60
 ROOMS = {
     "io": (65, "a reader and a writer of each format"),
     "atlas": (60, "cutting, seams and symmetry are to be rooms"),
-    "map": (40, "sessions, overlap and entry points"),
+    "map": (36, "sessions, overlap and entry points"),
     "untangle": (50, "stages, proofs and the device"),
     "edit": (40, "regions, radial basis functions and paste"),
     "compute": (40, "the only room that sees OpenCL"),

@@ -52,3 +52,17 @@ TEST_CASE("fixed coordinates: those that a device has rounded are set to the las
     CHECK(x[0] == vec2(0.1, 0.2));
     CHECK(x[3] == vec2(0.7));
 }
+
+TEST_CASE("fixed coordinates: those of a map in other lengths are set alone, pins exactly")
+{
+    const auto m = test::grid(2, 2);
+    fixed_coordinates<triangle> fixed(std::vector<vec2>(9, vec2(0)), {});
+    constraints<triangle> pins(m);
+    pins.pin(0, {0.1, 0.2}).pin_u(3, -0.3);
+    fixed.take(pins);
+    std::vector<vec2> x(9, vec2(0.7));
+    fixed.impose_scaled(x, 4);
+    CHECK(x[0] == vec2(4 * 0.1, 4 * 0.2));
+    CHECK(x[3] == vec2(4 * -0.3, 0.7));
+    CHECK(x[4] == vec2(0.7));
+}

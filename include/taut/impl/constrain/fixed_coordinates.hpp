@@ -94,6 +94,14 @@ public:
         impose(x, [&x](std::size_t v) { return x[v]; });
     }
 
+    /// The same without slides for a map whose lengths are `unit` times those of the targets.
+    void impose_scaled(map& x, double unit) const
+    {
+        for (std::size_t v = 0; v < marks_.size(); ++v)
+            for (int k = 0; k < D; ++k)
+                if (marks_.test(v, k)) x[v][k] = targets_[v][k] * unit;
+    }
+
     /// The same for those fixed coordinates that are rounded(v), the target of vertex v after rounding.
     template <class Rounded>
     void impose(map& x, const Rounded& rounded) const

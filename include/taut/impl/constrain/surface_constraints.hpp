@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/constrain/fixed_coordinates.hpp>
 #include <taut/impl/constrain/point_constraints.hpp>
 #include <taut/impl/constrain/untangle_problem.hpp>
 #include <taut/impl/measure/planar_size.hpp>
@@ -18,28 +19,33 @@
 namespace taut::impl
 {
 
-/// Fixed coordinates of a map of a surface: those of a fixed boundary and of pins. Lengths of maps are `unit` times
-/// those of the constraints.
+/// Constraints of a map of a surface: fixed coordinates, which are those of pins and of a fixed boundary, and springs.
+/// Lengths of maps are `unit` times those of the constraints.
 class surface_constraints
 {
 public:
     /// fixed: the vertices of a fixed boundary; none where it is free. Throws parameter_error for constraints of
-    /// another mesh; constraint_error (not_finite) for targets that are too far away in lengths of `unit`.
-    surface_constraints(constraints<triangle> wanted, std::size_t vertices, std::span<const idx> fixed, double unit)
-        : wanted_(std::move(wanted)), free_boundary_(fixed.empty()), unit_(unit)
+    /// another mesh; constraint_error (not_finite) for targets that are too far away in lengths of `unit`, and
+    /// (unused_vertex) for constraints of the vertices `unused`, ascending, that no triangle has.
+    surface_constraints(const constraints<triangle>& wanted, std::size_t vertices, std::span<const idx> fixed,
+                        std::span<const idx> unused, double unit)
+        : free_boundary_(fixed.empty()), unit_(unit)
     {
-        for (const auto& [v, pin] : wanted_.pins()) require(v, vertices);
-        for (const auto& s : wanted_.springs()) require(s.vertex, vertices);
-        wanted_.require_near(unit);
-        if (free_boundary_ && wanted_.pins().empty()) return;
-        marks_ = fixed_marks<2>(vertices);
+        for (const auto& [v, pin] : wanted.pins()) require(v, vertices);
+        for (const auto& s : wanted.springs()) require(s.vertex, vertices);
+        wanted.require_near(unit);
+        wanted.require_used(unused);
+        springs_ = wanted.springs();
+        if (!wanted.pins().empty())
+        {
+            pins_ = {std::vector<vec2>(vertices), {}};
+            pins_.take(wanted);
+            marks_ = pins_.marks();
+        }
+        else if (!free_boundary_)
+            marks_ = fixed_marks<2>(vertices);
         for (const idx v : fixed) marks_[static_cast<std::size_t>(v)] = marks_.every;
-        for (const auto& [v, pin] : wanted_.pins()) marks_[static_cast<std::size_t>(v)] |= pin.held;
     }
-
-    /// Checks that these unreferenced vertices, ascending, have no constraints. Throws constraint_error
-    /// (unused_vertex).
-    void require_used(std::span<const idx> unused) const { wanted_.require_used(unused); }
 
     /// Flags of vertices with constraints, one per vertex, which coarser surfaces should contain. Numerous springs are
     /// left out; those whose vertices happen to be there suffice.
@@ -47,9 +53,8 @@ public:
     {
         std::vector<bool> any(vertices, false);
         for (std::size_t v = 0; v < marks_.size(); ++v) any[v] = marks_.any(v);
-        const auto springs = wanted_.springs();
-        if (springs.size() <= vertices / 10)
-            for (const auto& s : springs) any[static_cast<std::size_t>(s.vertex)] = true;
+        if (springs_.size() <= vertices / 10)
+            for (const auto& s : springs_) any[static_cast<std::size_t>(s.vertex)] = true;
         return any;
     }
 
@@ -58,9 +63,12 @@ public:
     std::vector<directed_spring<2>> pull(const std::vector<bool>& left_out) const
     {
         std::vector<directed_spring<2>> springs;
-        for (const auto& [v, pin] : wanted_.pins())
-            if (!left_out[static_cast<std::size_t>(v)])
-                springs.push_back({v, pin.value * unit_, vec2(pin.held & 1u, pin.held >> 1u & 1u)});
+        each_pinned(
+            [&](std::size_t v)
+            {
+                const auto held = pins_.marks()[v];
+                if (!left_out[v]) springs.push_back({static_cast<idx>(v), target(v), vec2(held & 1u, held >> 1u & 1u)});
+            });
         return springs;
     }
 
@@ -68,13 +76,16 @@ public:
     vec2 centre() const
     {
         std::vector<vec2> places;
-        for (const auto& [v, p] : wanted_.pins())
-            if (p.held == marks_.every) places.push_back(p.value * unit_);
+        each_pinned(
+            [&](std::size_t v)
+            {
+                if (pins_.marks().all(v)) places.push_back(target(v));
+            });
         return places.empty() ? vec2(0) : impl::bounding_square(places).centre;
     }
 
-    bool constrained() const { return !wanted_.empty(); }
-    bool pinned() const { return !wanted_.pins().empty(); }
+    bool constrained() const { return pinned() || !springs_.empty(); }
+    bool pinned() const { return !pins_.marks().empty(); }
 
     /// One per vertex; none if nothing is fixed.
     const fixed_marks<2>& marks() const { return marks_; }
@@ -96,13 +107,16 @@ public:
     {
         if (!free_boundary_ || obeys(uv)) return;
         std::vector<anchor> anchors;
-        for (const auto& [v, p] : wanted_.pins())
-            if (p.held == marks_.every) anchors.push_back({uv[static_cast<std::size_t>(v)], p.value * unit_});
+        each_pinned(
+            [&](std::size_t v)
+            {
+                if (pins_.marks().all(v)) anchors.push_back({uv[v], target(v)});
+            });
         if (anchors.size() < 2)
         {
             double heaviest = 0;
-            for (const auto& s : wanted_.springs()) heaviest = std::max(heaviest, s.weight);
-            for (const auto& s : wanted_.springs())
+            for (const auto& s : springs_) heaviest = std::max(heaviest, s.weight);
+            for (const auto& s : springs_)
                 if (s.weight > 0)
                     anchors.push_back({uv[static_cast<std::size_t>(s.vertex)], s.target * unit_, s.weight / heaviest});
         }
@@ -116,19 +130,14 @@ public:
         for (vec2& p : uv) p = map(p);
     }
 
-    /// Sets fixed coordinates to their targets, in lengths of `unit` times the user's.
-    void impose(std::vector<vec2>& uv, double unit) const
-    {
-        for (const auto& [v, pin] : wanted_.pins())
-            for (int k = 0; k < 2; ++k)
-                if ((pin.held >> k & 1u) != 0) uv[static_cast<std::size_t>(v)][k] = pin.value[k] * unit;
-    }
+    /// Sets the coordinates of pins to their targets, in lengths of `unit` times the user's.
+    void impose(std::vector<vec2>& uv, double unit) const { pins_.impose_scaled(uv, unit); }
 
     /// The points of a map at the vertices of constraints::pins(), in their order.
     std::vector<vec2> pinned_points(const std::vector<vec2>& uv) const
     {
         std::vector<vec2> points;
-        for (const auto& [v, pin] : wanted_.pins()) points.push_back(uv[static_cast<std::size_t>(v)]);
+        each_pinned([&](std::size_t v) { points.push_back(uv[v]); });
         return points;
     }
 
@@ -145,26 +154,30 @@ public:
         return {m, std::move(uv), marks_.empty() ? fixed_marks<2>(m.points().size()) : marks_};
     }
 
-    /// Constraints other than pins, for a map whose origin is `centre`.
+    /// Constraints other than those of vertices that are eliminated, for a map whose origin is `centre`.
     point_constraints<2> beyond_pins(const vec2& centre) const
     {
-        point_constraints<2> r;
+        auto r = point_constraints<2>{{}, directed(springs_)}.scaled(unit_);
         if (auto alone = marks_.without_pinned(); alone.any()) r.held = std::move(alone);
-        for (const auto& s : wanted_.springs()) r.springs.push_back({s.vertex, s.target, vec2(s.weight)});
-        r = r.scaled(unit_);
         for (auto& s : r.springs) s.target -= centre;
         return r;
     }
 
 private:
+    vec2 target(std::size_t v) const { return pins_.targets()[v] * unit_; }
+
+    /// Calls visit(v) for each vertex with a pin, ascending.
+    template <class Visit>
+    void each_pinned(const Visit& visit) const
+    {
+        for (std::size_t v = 0; v < pins_.marks().size(); ++v)
+            if (pins_.marks().any(v)) visit(v);
+    }
+
     /// True if there are pins and all are at their targets; a similarity could only add rounding.
     bool obeys(const std::vector<vec2>& uv) const
     {
-        for (const auto& [v, pin] : wanted_.pins())
-            for (int k = 0; k < 2; ++k)
-                if ((pin.held >> k & 1u) != 0 && uv[static_cast<std::size_t>(v)][k] != pin.value[k] * unit_)
-                    return false;
-        return !wanted_.pins().empty();
+        return pinned() && pins_.gap(uv, [this](std::size_t v) { return target(v); }).vertex < 0;
     }
 
     static void require(idx v, std::size_t vertices)
@@ -175,10 +188,11 @@ private:
                                                  "; make them with the mesh that is parameterized");
     }
 
-    constraints<triangle> wanted_;
+    fixed_coordinates<triangle> pins_; ///< in the user's lengths, so that they are exact; of no map without pins
+    fixed_marks<2> marks_;             ///< of pins and of a fixed boundary
+    std::vector<spring<2>> springs_;
     bool free_boundary_;
     double unit_;
-    fixed_marks<2> marks_;
 };
 
 } // namespace taut::impl

@@ -12,7 +12,7 @@
 #include <taut/impl/dist/fixed_sum.hpp>
 #include <taut/impl/dist/free_rows.hpp>
 #include <taut/impl/dist/pinned_bodies.hpp>
-#include <taut/impl/map/shape_path.hpp>
+#include <taut/impl/start/shape_path.hpp>
 
 namespace taut::dist::impl
 {

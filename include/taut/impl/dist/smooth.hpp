@@ -7,8 +7,8 @@
 
 #include <mpi.h>
 
+#include <taut/impl/constrain/smooth_boundary.hpp>
 #include <taut/impl/dist/session.hpp>
-#include <taut/impl/map/smooth_boundary.hpp>
 
 namespace taut::dist
 {

@@ -9,8 +9,8 @@
 
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/map/deform.hpp>
-#include <taut/impl/map/shape_path.hpp>
 #include <taut/impl/measure/describe_defects.hpp>
+#include <taut/impl/start/shape_path.hpp>
 
 namespace taut
 {

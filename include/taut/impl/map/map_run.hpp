@@ -33,9 +33,8 @@ struct map_run
           params(p),
           in(surface),
           clock(limits),
-          held(p.constraints, in.surface.points().size(), in.fixed_boundary(p.boundary), in.unit)
+          held(p.constraints, in.surface.points().size(), in.fixed_boundary(p.boundary), in.unused, in.unit)
     {
-        held.require_used(in.unused);
         clock.spent(&map_seconds::setup);
         clock.stages.add({.stage = "setup", .vertices = vertices()});
         if (!clock.proceed() || !params.uses_levels()) return;

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include <taut/impl/constrain/boundary_slides.hpp>
+#include <taut/impl/constrain/smooth_boundary.hpp>
 #include <taut/impl/energy/shape_power.hpp>
 #include <taut/impl/map/deform.hpp>
-#include <taut/impl/map/smooth_boundary.hpp>
 #include <taut/impl/measure/shape_quality.hpp>
 
 namespace taut

@@ -44,7 +44,6 @@ struct rest_surface
     idx twin(idx side) const { return facets.twin[u(side)]; }
     idx vertices() const { return surface.vertex_count(); }
     idx triangles() const { return surface.cell_count(); }
-    bool spans_hole(idx cell) const { return cell >= first_span; }
 
     /// first_span: triangles from there on span holes. Lengths of any unit; the mesh is an oriented manifold.
     static rest_surface of(mesh<triangle> m, idx first_span)

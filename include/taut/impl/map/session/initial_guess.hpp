@@ -11,12 +11,12 @@
 #include <taut/impl/constrain/untangle_problem.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/exact/certify.hpp>
-#include <taut/impl/map/gradient_fit.hpp>
-#include <taut/impl/map/session/coarse_guess.hpp>
-#include <taut/impl/map/shape_path.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/mesh/incidence.hpp>
 #include <taut/impl/objective/running_map.hpp>
+#include <taut/impl/start/coarse_guess.hpp>
+#include <taut/impl/start/gradient_fit.hpp>
+#include <taut/impl/start/shape_path.hpp>
 #include <taut/impl/untangle/local_problem.hpp>
 #include <taut/impl/untangle/untangle_declared.hpp>
 

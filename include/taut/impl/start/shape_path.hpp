@@ -16,9 +16,9 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <taut/impl/core/linalg.hpp>
-#include <taut/impl/map/gradient_fit.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/mesh/facets.hpp>
+#include <taut/impl/start/gradient_fit.hpp>
 
 namespace taut::impl
 {

@@ -11,7 +11,7 @@
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/hierarchy/coarser_volume.hpp>
-#include <taut/impl/map/gradient_fit.hpp>
+#include <taut/impl/start/gradient_fit.hpp>
 
 namespace taut::impl
 {
