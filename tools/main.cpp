@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -10,9 +9,7 @@
 #include <sstream>
 #include <string>
 #include <utility>
-
-#include <fcntl.h>
-#include <unistd.h>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -29,6 +26,7 @@
 #include "shared/interrupt.hpp"
 #include "shared/other_way.hpp"
 #include "shared/printable.hpp"
+#include "shared/standard_streams.hpp"
 #include "shared/writing.hpp"
 
 namespace taut::tools
@@ -128,16 +126,6 @@ int usage(const CLI::App& program, const CLI::ParseError& e)
     return fail(exit_code::usage, e.what(), '`' + name + " --help` lists the options");
 }
 
-/// A result must not land in a file that got the number of a closed standard stream, and a pipe that nobody reads any
-/// more is an error like a full disk, so that nothing is left behind.
-void prepare_streams()
-{
-    for (const int number : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (::fcntl(number, F_GETFD) < 0 && ::open("/dev/null", number == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
-            break; // then nothing can be opened at all
-    std::signal(SIGPIPE, SIG_IGN);
-}
-
 int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
     command_line program("Injective, low-distortion maps of triangle and tetrahedral meshes, on any OpenCL device.",
@@ -190,7 +178,11 @@ int main(int argc, char** argv)
     taut::tools::prepare_streams();
     try
     {
-        return taut::tools::run(argc, argv, launch);
+        auto words = taut::tools::words_of(argc, argv);
+        std::vector<char*> pointers;
+        for (auto& word : words) pointers.push_back(word.data());
+        pointers.push_back(nullptr);
+        return taut::tools::run(static_cast<int>(words.size()), pointers.data(), launch);
     }
     catch (const std::exception& e)
     {

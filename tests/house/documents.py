@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""documents.py ROOT: pages for users are free of the idioms of a laboratory, and no link within the repository is dead.
+"""documents.py ROOT: pages for users are free of the idioms of a laboratory, and no link within the repository is dead, or
+leads to what the site leaves out.
 
 Pages for users are README.md and docs/ but for docs/log, which says what was tried and when. Those that are no
 explanation name public headers alone, no path below impl/. Links are those of all documents, with their headings, and
@@ -50,7 +51,7 @@ def anchors(page):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     documents = [*sorted(root.glob("*.md")), *sorted((root / "docs").rglob("*.md"))]
-    faults = []
+    docs, faults = root / "docs", []
 
     def fault(page, number, what):
         faults.append(f"{page.relative_to(root)}:{number}: {what}")
@@ -76,6 +77,8 @@ def main():
                 file = (page.parent / path).resolve() if path else page
                 if not file.exists():
                     fault(page, number, f"{target}: no such file")
+                elif not (docs in file.parents or file == docs or file.parent == root):
+                    fault(page, number, f"{target}: no part of the site (scripts/site); name it as code, without a link")
                 elif name and file.suffix == ".md" and name not in anchors(file):
                     fault(page, number, f"{target}: no such heading")
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 namespace taut::test
 {
@@ -49,5 +50,15 @@ public:
 private:
     std::filesystem::path path_;
 };
+
+/// A symbolic link. Returns whether the system has them.
+inline bool make_link(const std::filesystem::path& target, const std::filesystem::path& name)
+{
+    std::error_code failure;
+    std::filesystem::create_symlink(target, name, failure);
+    if (failure && failure != std::errc::function_not_supported)
+        throw std::filesystem::filesystem_error("no link", target, name, failure);
+    return !failure;
+}
 
 } // namespace taut::test

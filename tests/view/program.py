@@ -386,6 +386,28 @@ def pasting(path, n):
         assert "no pins" in s.message("note")["text"]
 
 
+def tessellated(path, n):
+    """The feature as about so many triangles, whatever it has, with the same rim: also where it is put anew."""
+    onto = (n // 2) * (n + 1) + n // 2
+    options = ("--source", path, "--at", str(onto), "--radius", "0.3", "--onto", str(onto), "--scale", "0.5", "--triangles")
+    counts = []
+    for wanted in (200, 2000):
+        with Program(program, path, *options, str(wanted)) as p:
+            s = p.socket()
+            model = s.message("model")
+            assert manifold(model["faces"]) == 4 * n
+            counts.append(len(model["faces"]) // 3 - model["feature"])
+            first = s.message("state")
+            s.send(pose(1, turn=0.1, scale=0.5, softness=0.5))
+            turned = s.rest()
+            assert len(turned["positions"]) == len(first["positions"]) and turned["positions"] != first["positions"]
+            s.send(pose(1, turn=2.0, scale=0.5))
+            again = s.message("model")
+            assert manifold(again["faces"]) == 4 * n
+            assert abs((len(again["faces"]) // 3 - again["feature"]) / counts[-1] - 1) < 0.3
+    assert 100 < counts[0] < 400 < 1000 < counts[1] < 4000, counts
+
+
 def no_surface(path, n):
     """A result that `taut paste` does not write is not saved or kept either, and the page is told why."""
     pinched = path.replace("dome.obj", "pinched.obj")  # a triangle touches the surface at a vertex, far from the feature
@@ -432,6 +454,7 @@ if __name__ == "__main__":
     opened(f"{folder}/dome.obj")
     volume(f"{folder}/bar.mesh")
     pasting(f"{folder}/dome.obj", n)
+    tessellated(f"{folder}/dome.obj", n)
     no_surface(f"{folder}/dome.obj", n)
     shell(f"{folder}/dome.obj", n)
     print("view: all as it should be")

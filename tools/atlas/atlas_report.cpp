@@ -15,6 +15,7 @@
 #include <taut/impl/mesh/ideal.hpp>
 
 #include "shared/assessment.hpp"
+#include "shared/peak_memory.hpp"
 #include "shared/printable.hpp"
 #include "shared/repair_report.hpp"
 #include "shared/report_files.hpp"

@@ -31,6 +31,7 @@
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
+#include "shared/peak_memory.hpp"
 #include "shared/printable.hpp"
 #include "shared/stages.hpp"
 #include "shared/text_table.hpp"

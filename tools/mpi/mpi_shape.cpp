@@ -20,6 +20,7 @@
 #include "mpi/shape_source.hpp"
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"
+#include "shared/peak_memory.hpp"
 #include "shared/progress.hpp"
 #include "shared/report_files.hpp"
 #include "shared/run_clock.hpp"

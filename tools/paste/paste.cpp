@@ -36,6 +36,7 @@
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
+#include "shared/peak_memory.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"

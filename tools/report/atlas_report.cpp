@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -7,9 +6,9 @@
 #include <string_view>
 
 #include <nlohmann/json.hpp>
-#include <openssl/evp.h>
 
 #include <taut/impl/core/error.hpp>
+#include <taut/impl/io/coding/base64.hpp>
 
 #include "report/atlas_page.hpp"
 #include "report/chart_table.hpp"
@@ -30,17 +29,7 @@ static_assert(std::endian::native == std::endian::little,
 template <class Number>
 std::string base64(const std::vector<Number>& numbers)
 {
-    const std::size_t size = numbers.size() * sizeof(Number);
-    std::string text(4 * ((size + 2) / 3) + 1, '\0');
-    const auto* bytes = reinterpret_cast<const unsigned char*>(numbers.data());
-    constexpr std::size_t piece = 3 << 20; // lengths are ints
-    std::size_t length = 0;
-    for (std::size_t begin = 0; begin < size; begin += piece)
-        length +=
-            static_cast<std::size_t>(EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()) + length,
-                                                     bytes + begin, static_cast<int>(std::min(piece, size - begin))));
-    text.resize(length);
-    return text;
+    return io::impl::to_base64({reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
 }
 
 template <class Number, class Row>

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "shared/interrupt.hpp"
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <csignal>
+#include <cstdlib>
 #include <string>
-#include <system_error>
-#include <thread>
-
-#include <poll.h>
-#include <sys/time.h>
-#include <unistd.h>
 
 #include <taut/impl/io/atomic_file.hpp>
+
+#include "shared/stop_signals.hpp"
 
 namespace taut::tools
 {
@@ -31,47 +25,34 @@ enum class standing
 };
 
 std::atomic<standing> state{standing::nothing};
-std::atomic<int> asked_by{SIGINT};
+std::atomic<stop_signal> asked_by{stop_signal::interrupt};
 
 /// Never returns to a thread that still asks while the program is ended: what is done from here on is done for nobody.
 standing present() noexcept
 {
     standing now = state;
-    for (; now == standing::leaving; now = state) ::pause();
+    for (; now == standing::leaving; now = state) wait_for_signals();
     return now;
 }
 
-exit_code code_of(int signal) noexcept
+exit_code code_of(stop_signal signal) noexcept
 {
-    return signal == SIGTERM ? exit_code::terminated : exit_code::interrupted;
-}
-
-sigset_t watched() noexcept
-{
-    sigset_t set;
-    sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaddset(&set, signal);
-    return set;
+    return signal == stop_signal::terminate ? exit_code::terminated : exit_code::interrupted;
 }
 
 /// Ends the program without a look at what other threads are doing.
 [[noreturn]] void leave(exit_code code, const std::string& why)
 {
-    const std::string bar_off = ::isatty(STDERR_FILENO) == 1 ? "\r\x1b[K" : "";
-    const std::string text = bar_off + "taut: error: " + why + '\n';
-    pollfd out{STDERR_FILENO, POLLOUT, 0};
-    // Where nobody reads, a message is not worth waiting for.
-    if (::poll(&out, 1, 0) == 1) [[maybe_unused]]
-        const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+    tell_if_read("taut: error: " + why + '\n');
     io::impl::remove_temporaries();
-    ::_exit(to_int(code));
+    std::_Exit(to_int(code));
 }
 
-void take(int signal)
+void take(stop_signal signal)
 {
     auto now = standing::nothing;
     const bool lossless = state.compare_exchange_strong(now, standing::leaving);
-    if (signal == SIGALRM)
+    if (signal == stop_signal::alarm)
     {
         if (lossless) leave(exit_code::no_valid_map, "the time limit came before there was a map; nothing was written");
         return;
@@ -83,41 +64,16 @@ void take(int signal)
     leave(code_of(signal), "interrupted twice, ended at once");
 }
 
-[[noreturn]] void watch()
-{
-    const sigset_t set = watched();
-    for (;;)
-        if (int signal = 0; ::sigwait(&set, &signal) == 0) take(signal);
-}
-
 } // namespace
 
 void watch_interrupts()
 {
-    const sigset_t set = watched();
-    // A shell starts programs in the background with SIGINT ignored; whoever sends it means it.
-    for (const int signal : {SIGINT, SIGTERM, SIGALRM}) std::signal(signal, SIG_DFL);
-    ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
-    try
-    {
-        std::thread(watch).detach();
-    }
-    catch (const std::system_error&) // no thread to be had: signals do what they do to any program
-    {
-        ::pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
-    }
+    watch_signals(&take);
 }
 
 void limit_time(double seconds)
 {
-    constexpr double longest = 1e8; // beyond what timers are asked to do
-    if (!(seconds < longest)) return;
-    seconds = std::max(0.0, seconds);
-    const double whole = std::floor(seconds);
-    itimerval timer{};
-    timer.it_value.tv_sec = static_cast<time_t>(whole);
-    timer.it_value.tv_usec = std::max<suseconds_t>(1, static_cast<suseconds_t>((seconds - whole) * 1e6));
-    ::setitimer(ITIMER_REAL, &timer, nullptr);
+    set_alarm(seconds);
 }
 
 void keep(bool something)

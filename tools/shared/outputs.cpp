@@ -8,14 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include <poll.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <taut/impl/io/atomic_file.hpp>
 
 #include "shared/companions.hpp"
 #include "shared/failure.hpp"
+#include "shared/standard_streams.hpp"
 #include "shared/tile_names.hpp"
 
 namespace taut::tools
@@ -40,11 +39,16 @@ class file_identity
 public:
     explicit file_identity(const fs::path& path) : spelled_(spelled_out(path).string())
     {
+#if !defined(_WIN32) // no numbers of files there; links are followed above
         struct stat found = {};
         if (::stat(path.c_str(), &found) == 0) node_ = std::pair(found.st_dev, found.st_ino);
+#endif
     }
 
-    const std::string& spelled() const { return spelled_; }
+    const std::string& spelled() const
+    {
+        return spelled_;
+    }
     bool operator==(const file_identity& other) const
     {
         return (node_ && node_ == other.node_) || spelled_ == other.spelled_;
@@ -92,7 +96,7 @@ bool require_place(const run_file& output)
     std::error_code ignored;
     if (fs::is_directory(output.path, ignored)) refuse(output, "is a folder; name a file");
     const auto folder = output.path.has_parent_path() ? output.path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored))
+    if (!fs::is_directory(folder, ignored) && io::impl::open_file_number(output.path) < 0)
         refuse(output, "there is no folder " + folder.string() + "; create it first");
     try
     {
@@ -106,7 +110,7 @@ bool require_place(const run_file& output)
             refuse(output, "the name must end in " + list);
         }
         io::impl::require_writable(output.path);
-        return target.number == STDOUT_FILENO;
+        return target.number == 1;
     }
     catch (const io::io_error& e)
     {
@@ -118,7 +122,8 @@ bool require_place(const run_file& output)
 bool is_in_place(const run_file& output, const run_file& input)
 {
     return output.use->in_place && output.source == input.given &&
-           file_identity(output.given) == file_identity(input.given) && output.path != name_of_invalid(output.given);
+           file_identity(output.given) == file_identity(input.given) &&
+           output.path != name_of_invalid(output.given.string());
 }
 
 void require_no_input(const known_file& written, const known_file& read)
@@ -140,7 +145,7 @@ void require_own(const run_file& output)
         throw usage_error(name_of(*output.option) + ' ' + output.given.string() + ": " + stray.string() +
                           " of another mesh would become a part of it; move it away, or choose another name");
     std::error_code ignored;
-    if (output.path == output.given || output.path == name_of_invalid(output.given) ||
+    if (output.path == output.given || output.path == name_of_invalid(output.given.string()) ||
         !fs::exists(output.path, ignored))
         return;
     const auto own = fs::exists(output.given, ignored) ? companions_of(output.given) : std::vector<fs::path>();
@@ -197,8 +202,7 @@ const char* outputs::place_of_report() const
 
 bool has_reader(const char* place_of_report)
 {
-    pollfd stream = {io::impl::resolve_target(place_of_report).number, POLLOUT, 0};
-    return ::poll(&stream, 1, 0) < 1 || (stream.revents & (POLLERR | POLLHUP)) == 0;
+    return has_reader(io::impl::resolve_target(place_of_report).number);
 }
 
 std::string extension(const fs::path& path)

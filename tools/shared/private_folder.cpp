@@ -2,7 +2,6 @@
 #include "shared/private_folder.hpp"
 
 #include <cerrno>
-#include <cstdlib>
 #include <system_error>
 
 #include <unistd.h>
@@ -58,19 +57,6 @@ void make_private(const fs::path& folder, const std::string& option)
     const int failure = make(without_slash(folder));
     const auto fault = failure != 0 ? std::generic_category().message(failure) : fault_of_folder(folder);
     if (!fault.empty()) throw usage_error(option + ' ' + folder.string() + ": " + fault + "; name another folder");
-}
-
-temporary_folder::temporary_folder()
-{
-    std::string name = (fs::temp_directory_path() / "taut-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw error("no temporary folder can be made: set TMPDIR");
-    path_ = name;
-}
-
-temporary_folder::~temporary_folder()
-{
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
 }
 
 } // namespace taut::tools

@@ -18,19 +18,4 @@ std::string fault_of_folder(const std::filesystem::path& folder, mode_t closed_t
 /// `option`, if it cannot be made, or is there and somebody else's.
 void make_private(const std::filesystem::path& folder, const std::string& option);
 
-/// A folder of the user alone among the temporary ones, for as long as it lives.
-class temporary_folder
-{
-public:
-    temporary_folder();
-    temporary_folder(const temporary_folder&) = delete;
-    temporary_folder& operator=(const temporary_folder&) = delete;
-    ~temporary_folder();
-
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 } // namespace taut::tools

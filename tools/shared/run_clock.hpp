@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdint>
-
-#include <sys/resource.h>
 
 namespace taut::tools
 {
@@ -36,13 +33,5 @@ public:
 private:
     std::chrono::steady_clock::time_point launch_;
 };
-
-/// Largest resident size of this process so far, in bytes. A CPU device's buffers are part of it, a GPU's are not.
-inline std::uint64_t peak_memory()
-{
-    rusage usage{};
-    if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // Linux counts KiB
-}
 
 } // namespace taut::tools

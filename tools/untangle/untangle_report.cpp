@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "shared/assessment.hpp"
+#include "shared/peak_memory.hpp"
 #include "shared/printable.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/stages.hpp"

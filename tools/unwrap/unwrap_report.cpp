@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "shared/interrupt.hpp"
+#include "shared/peak_memory.hpp"
 #include "shared/printable.hpp"
 #include "shared/run_clock.hpp"
 #include "shared/stages.hpp"

@@ -12,6 +12,8 @@
 
 #include <taut/impl/io/atomic_file.hpp>
 
+#include "view/leading_page.hpp"
+
 extern char** environ;
 
 namespace taut::view
@@ -19,13 +21,6 @@ namespace taut::view
 
 namespace
 {
-
-std::string page_that_leads_to(const std::string& url)
-{
-    return "<!doctype html>\n<meta charset=\"utf-8\">\n<title>taut</title>\n<meta http-equiv=\"refresh\" "
-           "content=\"0;url=" +
-           url + "\">\n<a href=\"" + url + "\">taut</a>\n";
-}
 
 void write_private(const std::filesystem::path& path, const std::string& text)
 {

@@ -5,7 +5,7 @@
 
 #include <sys/types.h>
 
-#include "shared/private_folder.hpp"
+#include "shared/temporary_folder.hpp"
 
 namespace taut::view
 {

@@ -7,7 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/edit/feature_map.hpp>
+#include <taut/impl/edit/parameterize_feature.hpp>
 #include <taut/impl/edit/paste.hpp>
+#include <taut/impl/edit/tessellate.hpp>
 #include <taut/impl/io/read_surface.hpp>
 #include <taut/impl/io/surface/obj_output.hpp>
 
@@ -49,6 +52,7 @@ public:
           feature_(
               make_feature(geodesic_disk(io::read_surface(from.feature.source), from.feature.at, from.feature.radius))),
           target_(std::make_shared<const mesh<triangle>>(io::read_surface(from.path, from.format))),
+          triangles_(from.feature.triangles),
           pose_{.scale = from.feature.scale}
     {
         put(target_, from.feature.onto, pose_);
@@ -172,11 +176,21 @@ private:
         return std::abs(pose.turn - attached_.turn) < turn && std::abs(std::log(pose.scale / attached_.scale)) < scale;
     }
 
+    /// Remeshes the feature from its map, which the device samples.
+    void refill(paste& there) const
+    {
+        const auto uv = parameterize_feature(queue_, there);
+        if (!uv) throw error("the feature has no map with its rim where it meets the target: " + uv.reason());
+        const auto map = make_feature_map(queue_, there.part(), uv.uv, {});
+        there.refill(tessellate(queue_, there.part(), map, uv.uv, triangles_));
+    }
+
     /// onto: a vertex of the target, or -1.
     void put(std::shared_ptr<const mesh<triangle>> target, idx onto, const paste_pose& pose)
     {
         std::optional<paste> there;
         if (onto >= 0) there.emplace(queue_, *target, feature_, onto, paste_params{.pose = pose});
+        if (there && triangles_ > 0) refill(*there);
         paste_ = std::move(there);
         target_ = std::move(target);
         onto_ = onto;
@@ -190,6 +204,7 @@ private:
     std::shared_ptr<const mesh<triangle>> target_;
     std::optional<paste> paste_;
     idx onto_ = -1;
+    idx triangles_ = 0;                                      ///< of the feature's tessellation; 0: it stays as it is
     paste_pose pose_, attached_;                             ///< now, and when the rim was attached
     mutable std::weak_ptr<const mesh<triangle>> remembered_; ///< the target of the last moment
     int revision_ = 0;

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <utility>
 
+#if !defined(_WIN32)
 #include <fcntl.h>
+#endif
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -16,6 +18,20 @@ namespace taut::view
 
 using namespace impl;
 
+namespace
+{
+
+/// No child keeps it open. Windows: sockets are not handed on.
+template <class Socket>
+void close_on_exec([[maybe_unused]] Socket& socket)
+{
+#if !defined(_WIN32)
+    ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC);
+#endif
+}
+
+} // namespace
+
 class server::body
 {
 public:
@@ -23,7 +39,7 @@ public:
         : service_{what, std::move(model_message), {}, {}, {}, {}, {}, {}},
           acceptor_(io_, {asio::ip::make_address("127.0.0.1"), port})
     {
-        ::fcntl(acceptor_.native_handle(), F_SETFD, FD_CLOEXEC);
+        close_on_exec(acceptor_);
         service_.entrance.emplace(acceptor_.local_endpoint().port());
     }
 
@@ -85,8 +101,8 @@ private:
                 if (!e)
                 {
                     error_code ignored;
-                    ::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC); // no child keeps it open
-                    socket.set_option(tcp::no_delay(true), ignored);      // what is small waits for no acknowledgement
+                    close_on_exec(socket);
+                    socket.set_option(tcp::no_delay(true), ignored); // what is small waits for no acknowledgement
                     std::make_shared<connection>(service_, std::move(socket))->read_request();
                 }
                 if (acceptor_.is_open()) accept();

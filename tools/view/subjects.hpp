@@ -19,6 +19,7 @@ struct pasted
     idx at = 0, onto = 0;
     double radius = 0;
     double scale = 1;
+    idx triangles = 0; ///< of its tessellation from its map; 0: as it is
 };
 
 /// Source of a subject: files and options.

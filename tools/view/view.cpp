@@ -107,6 +107,12 @@ command add_view(CLI::App& program)
     app.add_option("--scale", feature.scale, "Scale of the feature: lengths in the result by those in the source")
         ->type_name("S")
         ->needs(source);
+    app.add_option(
+           "--triangles", feature.triangles,
+           "Remesh the feature from its map, with about this many triangles, each time that its rim is attached")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100'000'000))
+        ->needs(source);
     app.add_flag("--holes", options->from.holes, "Accept surfaces with holes");
     app.add_flag("--shell", options->from.shell, "Deform the surface in space, as a thin shell");
     app.add_option("--port", options->port, "Port of 127.0.0.1; 0: a free one")

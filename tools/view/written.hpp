@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string>
 
-#include "shared/private_folder.hpp"
+#include "shared/temporary_folder.hpp"
 
 namespace taut::view
 {

@@ -132,13 +132,28 @@ TEST_CASE("parallel_for: a nested call stays on its thread, and all of it is don
     CHECK(elsewhere == 0);
 }
 
+namespace
+{
+
+/// value: null takes the variable out of the environment.
+void set_variable(const char* name, const char* value)
+{
+#if defined(_WIN32)
+    ::_putenv_s(name, value ? value : "");
+#else
+    value ? ::setenv(name, value, 1) : ::unsetenv(name);
+#endif
+}
+
+} // namespace
+
 TEST_CASE("parallel_for: the environment bounds the threads, unless it says nonsense")
 {
     const auto with = [](const char* wish)
     {
-        ::setenv("TAUT_THREADS", wish, 1);
+        set_variable("TAUT_THREADS", wish);
         const unsigned threads = taut::impl::threads_at_once();
-        ::unsetenv("TAUT_THREADS");
+        set_variable("TAUT_THREADS", nullptr);
         return threads;
     };
     const unsigned all = taut::impl::threads_at_once();

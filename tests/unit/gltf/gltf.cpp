@@ -635,8 +635,7 @@ TEST_CASE("gltf: a file beside a document is replaced only as its buffer")
     refuses("b.gltf");
     folder.write(folder / "b.gltf", builder.gltf("a.bin")); // another one's
     refuses("b.gltf");
-    std::filesystem::create_symlink("nowhere", folder / "c.bin");
-    refuses("c.gltf");
+    if (test::make_link("nowhere", folder / "c.bin")) refuses("c.gltf");
     io::write_gltf(folder / "b.glb", model, uv); // has its data in it
     CHECK(io::impl::read_file(folder / "b.bin") == "of somebody");
     CHECK(io::impl::gltf_companions(folder / "b.glb").empty());

@@ -146,9 +146,9 @@ TEST_CASE("gltf: no buffer is read from outside of the folder of the document")
     fs::create_directories(folder / "model/sub");
     for (const char* const name : {"secret.bin", "model/t.bin", "model/sub/t.bin"})
         folder.write(folder / name, builder.bytes);
-    fs::create_symlink("../secret.bin", folder / "model/link.bin");
-    fs::create_directory_symlink("..", folder / "model/up");
-    fs::create_symlink("t.bin", folder / "model/inside.bin");
+    const bool links = test::make_link("../secret.bin", folder / "model/link.bin") &&
+                       test::make_link("..", folder / "model/up") &&
+                       test::make_link("t.bin", folder / "model/inside.bin");
     const auto document = folder / "model/x.gltf";
     const auto refuses = [&](const std::string& uri, const char* what)
     {
@@ -161,10 +161,11 @@ TEST_CASE("gltf: no buffer is read from outside of the folder of the document")
          {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"), std::string("sub/../../secret.bin"),
           std::string("sub/..%2Ft.bin"), secret, "%2F" + secret.substr(1), std::string("//secret.bin")})
         refuses(uri, "outside of the folder of the document; put the file itself beside the document");
-    for (const char* const uri : {"link.bin", "up/secret.bin"}) refuses(uri, "a link out of the folder");
+    for (const char* const uri : {"link.bin", "up/secret.bin"})
+        if (links) refuses(uri, "a link out of the folder");
     for (const char* const uri : {"..\\secret.bin", "..%5csecret.bin", "t.bin%00"}) refuses(uri, "no path of a URI");
     refuses("file:///etc/passwd", "fetch it");
-    for (const char* const uri : {"t.bin", "sub/t.bin", "./t.bin", "inside.bin"})
+    for (const char* const uri : {"t.bin", "sub/t.bin", "./t.bin", links ? "inside.bin" : "t.bin"})
     {
         folder.write(document, builder.gltf(uri));
         CHECK(io::read_gltf(document).source.files.size() == 1);
@@ -179,6 +180,7 @@ TEST_CASE("gltf: no buffer is read from outside of the folder of the document")
     const std::vector<std::array<vec2, 3>> uv(model.triangles.size());
     io::write_gltf(folder / "out.gltf", model, uv);
     CHECK(io::read_gltf(folder / "out.gltf").source.buffers.size() == 1);
+    if (!links) return;
     d["buffers"][1]["uri"] = "inside.bin";
     d["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 8}});
     folder.write(document, d.dump());

@@ -175,14 +175,14 @@ TEST_CASE("writing: no output is an input, nor of another format")
     const test::temporary_folder folder;
     const std::string text = test::medit_text(test::small_volume(false));
     folder.write(folder / "in.mesh", text);
-    std::filesystem::create_symlink(folder / "in.mesh", folder / "link.mesh");
+    const bool links = test::make_link(folder / "in.mesh", folder / "link.mesh");
     const auto file = io::read_volume_file(folder / "in.mesh");
-    for (const char* name : {"in.mesh", "link.mesh"})
+    for (const char* name : {"in.mesh", links ? "link.mesh" : "in.mesh"})
         CHECK_THROWS_WITH_AS(io::write_volume(folder / name, file, file.points), doctest::Contains("is the input"),
                              io::io_error);
     CHECK_THROWS_WITH_AS(io::write_volume(folder / "out.vtk", file, file.points),
                          doctest::Contains("the format of its input, MEDIT"), io::io_error);
-    CHECK(folder.entries() == 2);
+    CHECK(folder.entries() == (links ? 2 : 1));
     io::write_volume(folder / "out.mesh", file, file.points);
     CHECK(folder.read(folder / "out.mesh") == text);
 }

@@ -11,6 +11,7 @@
 
 #include "../../../tools/shared/exit_codes.hpp"
 #include "../../../tools/shared/interrupt.cpp" // it is not in a library of its own
+#include "../../../tools/shared/stop_signals.cpp"
 
 using namespace taut::tools;
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <system_error>
 
@@ -17,25 +16,18 @@
 #endif
 
 #include <taut/impl/io/file/file_target.hpp>
+#include <taut/impl/io/file/open_file.hpp>
 #include <taut/impl/io/io_error.hpp>
 
 namespace taut::io::impl
 {
 
-using open_file = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
 /// Null, with errno, if it cannot be opened. What is open already (/dev/stdin) is read on from where it is.
 inline open_file open_to_read(const std::filesystem::path& path)
 {
     errno = 0;
-#if defined(__unix__) || defined(__APPLE__)
-    if (const int number = open_file_number(path); number >= 0)
-    {
-        const int copy = ::dup(number);
-        return {copy < 0 ? nullptr : ::fdopen(copy, "rb"), &std::fclose};
-    }
-#endif
-    return {std::fopen(path.string().c_str(), "rb"), &std::fclose};
+    if (const int number = open_file_number(path); number >= 0) return open_number(number, "rb");
+    return open_name(path, "rb");
 }
 
 /// Maximum number of bytes that read_file reads by default: a quarter of the machine's memory, or of the limit of the

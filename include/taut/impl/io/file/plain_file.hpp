@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <random>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include <taut/impl/io/file/file_target.hpp>
+#include <taut/impl/io/file/open_file.hpp>
 
 namespace taut::io::impl
 {
@@ -24,7 +24,10 @@ public:
     {
         if (!target_.stream) name_.replace_filename(".taut-" + std::to_string(std::random_device()()));
         errno = 0;
-        file_.reset(std::fopen(name_.string().c_str(), target_.stream ? "wb" : "wbx"));
+        if (target_.number >= 0)
+            file_ = open_number(target_.number, "wb");
+        else
+            file_ = target_.stream ? open_name(name_, "wb") : open_new(name_);
         if (!file_) cannot_write(target_.path, errno);
     }
     ~plain_file()
@@ -72,14 +75,9 @@ public:
     }
 
 private:
-    struct close
-    {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-
     file_target target_;
     std::filesystem::path name_; ///< that the file has now
-    std::unique_ptr<std::FILE, close> file_;
+    open_file file_{nullptr, &std::fclose};
 };
 
 } // namespace taut::io::impl

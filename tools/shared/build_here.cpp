@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "shared/build_elsewhere.hpp"
+
+namespace taut::tools
+{
+
+/// None: without child processes this one builds its kernels.
+impl::program_builder build_elsewhere(const taut::device&, const std::string&)
+{
+    return {};
+}
+
+/// Nothing is required: on Windows a driver keeps its kernels in the user's profile.
+void require_own_kernels(const taut::device&) {}
+
+} // namespace taut::tools
