@@ -148,7 +148,7 @@ double problem::gradient(const std::vector<double>& x, std::vector<double>& g) c
     return least > 0 && sum < infinity ? sum : infinity;
 }
 
-void problem::matrix(const std::vector<double>& x, model kind, impl::block_matrix& h) const
+void problem::matrix(const std::vector<double>& x, model kind, block_matrix& h) const
 {
     std::fill(h.value.begin(), h.value.end(), 0.0);
     for (std::size_t f = 0; f < corners_.size(); ++f)
@@ -203,7 +203,7 @@ void problem::matrix(const std::vector<double>& x, model kind, impl::block_matri
     }
 }
 
-impl::block_matrix problem::make_matrix()
+block_matrix problem::make_matrix()
 {
     const auto at = [](int i) { return static_cast<std::size_t>(i); };
     std::vector<std::vector<int>> below(vertices_); // neighbours of higher number
@@ -213,7 +213,7 @@ impl::block_matrix problem::make_matrix()
             const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
             below[at(low)].push_back(high);
         }
-    impl::block_matrix h;
+    block_matrix h;
     h.column.push_back(0);
     for (std::size_t v = 0; v < vertices_; ++v)
     {

@@ -40,10 +40,10 @@ public:
     /// Infinite if a triangle is flipped.
     double value(const std::vector<double>& x) const;
     double gradient(const std::vector<double>& x, std::vector<double>& g) const;
-    void matrix(const std::vector<double>& x, model kind, impl::block_matrix& h) const;
+    void matrix(const std::vector<double>& x, model kind, block_matrix& h) const;
 
     /// The matrix with its pattern; fixes where each triangle adds to it.
-    impl::block_matrix make_matrix();
+    block_matrix make_matrix();
 
     /// The largest a for which no triangle of x + t d flips, t in [0, a).
     double longest_step(const std::vector<double>& x, const std::vector<double>& d) const;
