@@ -24,7 +24,7 @@ namespace taut::impl
 /// Cuts a few charts, across their waists and off their limbs, where the square is used much better then for the length
 /// of the cuts. One limb less may gain nothing while others hold the square open, so that cuts are made one after the
 /// other, each that which frees most of the room around the charts where none gains by itself; those up to the best
-/// stay. Layouts are drafts: what they gain is compared with each other only.
+/// stay, if they do so in the final layouts, too. All others are drafts and estimates.
 class filled_square
 {
 public:
@@ -51,6 +51,9 @@ public:
         std::vector<idx> all(mesh_.cells().size());
         std::iota(all.begin(), all.end(), idx(0));
         auto charts = charts_of(all, seam);
+        const auto first = seam;
+        const double at_first = use_of(charts, packing_effort::full);
+        if (!(at_first < enough)) return first;
         double best_use = use_of(charts, packing_effort::estimate), use = best_use, spent = 0, best_spent = 0;
         for (int k = 0; k < most && use < enough && proceed(); ++k)
         {
@@ -65,7 +68,9 @@ public:
             best_use = use;
             best_spent = spent;
         }
-        return best;
+        if (best_spent == 0) return first;
+        const double gain = use_of(charts_of(all, best), packing_effort::full) - at_first;
+        return gain > worth * best_spent / root ? best : first;
     }
 
     /// How much of the square charts use, about.

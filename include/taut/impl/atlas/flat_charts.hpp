@@ -266,7 +266,8 @@ protected:
     /// Parts these charts, one flag each, where they lie on themselves. Returns the flags of those that are unfit then.
     std::vector<char> part_overlaps(std::vector<char> bad);
 
-    /// Maps these charts anew with borders kept apart (roughly: in few steps). Clears the flags where that succeeds.
+    /// Maps these charts anew with borders kept apart (roughly: in a hundred steps). Clears the flags where that
+    /// succeeds.
     void keep_apart(std::vector<char>& bad, bool roughly = false)
     {
         constexpr idx most = 32; // one by one: more would take long
@@ -288,7 +289,7 @@ protected:
                                        .holes = true,
                                        .no_overlap = true,
                                        .limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("flatten")}};
-            if (roughly) params.solve.stopping.max_iterations = 20;
+            if (roughly) params.solve.stopping.max_iterations = 100;
             const mesh<triangle> chart(std::move(points), std::move(cells));
             if (!check(chart, {.one_boundary = false}).empty()) continue;
             const auto map = parameterize(queue_, chart, params);

@@ -219,9 +219,8 @@ private:
                    {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
         c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
         // Of a rough surface the bound is out of reach, and the last digits take most of the steps.
-        constexpr int few = 20;
         rough_ = cutting.rough();
-        auto flat = c_.flatten(*c_.charts_, {}, rough_ ? few : std::numeric_limits<int>::max(), !rough_);
+        auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(), !rough_);
         c_.energy_.clear();
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
