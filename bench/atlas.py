@@ -1,16 +1,22 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""atlas.py [--taut PROGRAM] [--meshes FOLDER] [--closed N]... [--noisy N]... [--limit S] [--out FOLDER]
-Makes atlases with `taut atlas --repair`, one run a mesh, and prints a table: what became of each, charts, mean and worst
-isometric energy, use of the square, seconds by stage.
+"""atlas.py [--taut PROGRAM] [--meshes FOLDER] [--names NAME,...] [--closed N]... [--noisy N]... [--rough N]... [--noise S]
+         [--limit S] [--out FOLDER] [-- OPTION...]
+Makes atlases with `taut atlas --repair OPTION...`, one run a mesh, and prints a table: what became of each, charts, seams
+by the root of the area, mean and worst isometric energy, use of the square, processor seconds of the program, and its
+seconds by stage.
 
 --meshes  every OFF, OBJ, PLY and STL file of a folder
+--names   of these some, without endings
 --closed  a generated closed scan of about N triangles: a ball with bumps of many sizes
 --noisy   a generated mesh of about N triangles, a fifth of whose edges have three or more: walls between pieces of a ball
+--rough   a ball and a box of about N triangles whose vertices are moved at random, by --noise (0.03) of the size
+--limit   seconds after which what there is is taken, and twice that after which a run is ended (60)
 """
 import argparse
 import json
 import pathlib
+import resource
 import subprocess
 import sys
 
@@ -89,6 +95,30 @@ def noisy(count, seed=1, side=3, labels=8):
     return points, triangles.reshape(-1, 3)
 
 
+def cube(count):
+    """The unit cube, its sides divided into squares."""
+    n = round((count / 12) ** 0.5)
+    i, j = np.divmod(np.arange(n * n), n)
+    triangles, points = [], []
+    for axis in range(3):
+        for side in 0, n:
+            corners = []
+            for x, y in (0, 0), (1, 0), (1, 1), (0, 1):
+                p = np.full((n * n, 3), side)
+                p[:, (axis + 1) % 3], p[:, (axis + 2) % 3] = i + x, j + y
+                points.append(p)
+                corners.append(np.arange(n * n) + n * n * (len(points) - 1))
+            a, b, c, d = corners if side else corners[::-1]
+            triangles += [np.stack([a, b, c], 1), np.stack([a, c, d], 1)]
+    points, index = np.unique(np.concatenate(points), axis=0, return_inverse=True)
+    return points / n, index.reshape(-1)[np.concatenate(triangles)]
+
+
+def rough(points, part, seed=1):
+    size = np.max(np.ptp(points, axis=0))
+    return points + np.random.default_rng(seed).normal(scale=part * size, size=points.shape)
+
+
 def crowded(triangles):
     """The part of the edges that has three or more triangles."""
     edges = np.sort(np.concatenate([triangles[:, k] for k in ([0, 1], [1, 2], [2, 0])]), 1)
@@ -101,49 +131,63 @@ def main():
     parser.add_argument("--meshes", type=pathlib.Path)
     parser.add_argument("--closed", type=int, action="append", default=[])
     parser.add_argument("--noisy", type=int, action="append", default=[])
+    parser.add_argument("--rough", type=int, action="append", default=[])
+    parser.add_argument("--noise", type=float, default=0.03)
+    parser.add_argument("--names", default="")
     parser.add_argument("--limit", type=float, default=60)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("build/bench-atlas"))
+    parser.add_argument("options", nargs="*")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
 
     meshes = []
-    for kind, make, sizes in ("closed", closed_scan, given.closed), ("noisy", noisy, given.noisy):
+    def rough_ball(count):
+        points, triangles = geodesic_sphere(round((count / 20) ** 0.5))
+        return rough(points, given.noise), triangles
+
+    def rough_box(count):
+        points, triangles = cube(count)
+        return rough(points, given.noise), triangles
+
+    for kind, make, sizes in (("closed", closed_scan, given.closed), ("noisy", noisy, given.noisy),
+                              ("ball", rough_ball, given.rough), ("box", rough_box, given.rough)):
         for count in sizes:
             points, triangles = make(count)
             meshes.append(given.out / f"{kind}-{count}.off")
             write_off(meshes[-1], points, triangles)
             print(f"{meshes[-1].name}: {len(triangles)} triangles, {100 * crowded(triangles):.1f} % of edges crowded")
     if given.meshes:
-        meshes += sorted(p for p in given.meshes.iterdir() if p.suffix.lower() in (".off", ".obj", ".ply", ".stl"))
+        names = [n for n in given.names.split(",") if n]
+        meshes += sorted(p for p in given.meshes.iterdir() if p.suffix.lower() in (".off", ".obj", ".ply", ".stl") and
+                         (not names or p.stem in names))
 
-    manifest = given.out / "jobs.jsonl"
-    with open(manifest, "w") as jobs:
-        for mesh in meshes:
-            name = given.out / mesh.name
-            jobs.write(json.dumps({"id": mesh.name, "time_limit": given.limit,
-                                   "args": ["atlas", str(mesh), "-o", f"{name}.obj", "--repair", "--quiet",
-                                            "--stats", f"{name}.json"]}) + "\n")
-    results = given.out / "results.jsonl"
-    results.unlink(missing_ok=True)
-    subprocess.run([given.taut, "batch", "--manifest", manifest, "--out", results, "--quiet"], check=False)
-
-    table, ended = [], {}
-    for line in results.read_text().splitlines():
-        result = json.loads(line)
-        ended[result["code"]] = ended.get(result["code"], 0) + 1
-        s = result.get("stats")
-        if not s:
-            table.append([result["id"], result["outcome"], result.get("error", "")[:90]])
-            continue
-        t = s["seconds"]
-        table.append([result["id"], sum(f["faces"] for f in s["surfaces"]), s["charts"], f'{s["distortion"]:.4f}',
-                      f'{s["worst_distortion"]:.3f}', f'{100 * s["utilization"]:.0f} %', s["flipped"], s["overlaps"]] +
-                     [f"{t[k]:.2f}" for k in ("total", "device", "charts", "flatten", "pack", "certify")])
-    print("mesh | triangles | charts | mean | worst | use | flipped | overlaps | total s | device | charts | flatten | "
-          "pack | certify\n--- | " + "---: | " * 12 + "---:")
-    for row in table:
-        print(" | ".join(map(str, row)))
-    print(f"{len(table)} meshes: " + ", ".join(f"{n} ended with code {code}" for code, n in sorted(ended.items())))
+    print("mesh | triangles | charts | seam | mean | worst | use | flipped | overlaps | CPU s | total s | device | charts | "
+          "flatten | pack | certify\n--- | " + "---: | " * 14 + "---:")
+    ended = {}
+    for mesh in meshes:
+        name = given.out / mesh.name
+        stats = pathlib.Path(f"{name}.json")
+        stats.unlink(missing_ok=True)
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        try:
+            code = subprocess.run([given.taut, "atlas", mesh, "-o", f"{name}.obj", "--repair", "--quiet", "--stats", stats,
+                                   "--time-limit", str(given.limit), *given.options], timeout=2 * given.limit,
+                                  stderr=subprocess.PIPE).returncode
+        except subprocess.TimeoutExpired:
+            code = "none, as it was ended"
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        ended[code] = ended.get(code, 0) + 1
+        row = [mesh.stem, f"code {code}"]
+        if stats.exists():
+            s = json.loads(stats.read_text())
+            t = s["seconds"]
+            cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            row = [mesh.stem, sum(f["faces"] for f in s["surfaces"]), s["charts"], f'{s["relative_seam"]:.2f}',
+                   f'{s["distortion"]:.4f}', f'{s["worst_distortion"]:.3f}', f'{100 * s["utilization"]:.0f} %',
+                   s["flipped"], s["overlaps"], f"{cpu:.2f}"]
+            row += [f"{t[k]:.2f}" for k in ("total", "device", "charts", "flatten", "pack", "certify")]
+        print(" | ".join(map(str, row)), flush=True)
+    print(f"{len(meshes)} meshes: " + ", ".join(f"{n} ended with code {code}" for code, n in ended.items()))
 
 
 if __name__ == "__main__":

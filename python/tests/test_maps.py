@@ -116,3 +116,41 @@ def test_a_time_limit_gives_the_best_map_or_says_that_there_is_none(large_bowl):
         assert taut.unwrap(*large_bowl, time_limit=0.3).certified
     except taut.NoMap as e:
         assert e.fault == "stopped"
+
+
+def rough_quads(n):
+    """Hills of n by n quads, rough enough that a map of their triangles makes some concave: vertices, quads."""
+    y, x = np.divmod(np.arange((n + 1) ** 2), n + 1)
+    z = 4 * np.sin(0.9 * x + 0.3 * y) * np.cos(1.1 * y) + 0.9 * ((x * 7 + y * 5) % 3)
+    j, i = np.divmod(np.arange(n * n), n)
+    a = j * (n + 1) + i
+    return np.column_stack([x, y, z]).astype(float), np.column_stack([a, a + 1, a + n + 2, a + n + 1])
+
+
+def turns(x, quads):
+    """The cross product at each corner of quads in space or in the plane."""
+    corners = x[quads]
+    a, b = corners - np.roll(corners, 1, 1), np.roll(corners, -1, 1) - corners
+    return np.cross(a, b) if x.shape[1] == 3 else a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def test_polygons_that_are_convex_in_space_are_so_in_the_map():
+    V, quads = rough_quads(12)
+    F = quads[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
+    polygons = np.repeat(np.arange(len(quads)), 2)
+    normals = turns(V, quads)
+    total = normals.sum(1, keepdims=True)
+    convex = ((normals * total).sum(2) > 1e-6 * (total**2).sum(2)).all(1)
+    assert convex.sum() > 100
+
+    def concave(uv):
+        return np.flatnonzero(convex & ~(turns(uv, quads) > 0).all(1))
+
+    assert len(concave(taut.unwrap(V, F).uv)) > 0  # else there is nothing to see
+    made = taut.unwrap(V, F, polygons=polygons)
+    assert made.certified and len(concave(made.uv)) == 0 and taut.certify(F, made.uv)
+    pinned = taut.unwrap(V, F, polygons=polygons, b=[30, 100], bc=made.uv[[30, 100]])
+    assert (pinned.uv[[30, 100]] == made.uv[[30, 100]]).all() and len(concave(pinned.uv)) == 0
+
+    with pytest.raises(ValueError):
+        taut.unwrap(V, F, polygons=polygons[:-1])

@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <set>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
 #include <taut/impl/atlas/cutting/lift_seams.hpp>
+#include <taut/impl/atlas/cutting/part_charts.hpp>
 #include <taut/impl/atlas/cutting/seam_search.hpp>
 #include <taut/impl/atlas/cutting/short_cutting.hpp>
 #include <taut/impl/atlas/cutting/span_holes.hpp>
@@ -195,6 +197,17 @@ TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
     double length = 0;
     for (const idx s : cut) length += rest.length[at(s)];
     CHECK(length == doctest::Approx(1).epsilon(0.02)); // the width
+    // As it is laid, so that nothing but the seams changes.
+    auto laid = flat.seam;
+    auto uv = flat.uv;
+    std::vector<idx> all(rest.surface.cells().size());
+    std::iota(all.begin(), all.end(), idx(0));
+    CHECK(part_laid(rest.surface, {laid, uv, all}, rest.price));
+    CHECK(uv == flat.uv);
+    CHECK(pieces_between(rest.facets, laid).second == 2);
+    CHECK(seam_price(rest, laid) == doctest::Approx(1).epsilon(0.02));
+    CHECK_FALSE(part_laid(rest.surface, {laid, uv, all}, rest.price));
+
     CHECK(part_charts(rest, flat, {}) == 1);
     CHECK(pieces_between(rest.facets, flat.seam).second == 2);
     CHECK(border_crossings(rest, flat, 1) == 0);
@@ -219,6 +232,72 @@ TEST_CASE("seam search: within the bound, and a looser one makes no longer seams
             CHECK(search.price() < 1.1 * before);
             before = std::min(before, search.price());
         }
+    }
+}
+
+TEST_CASE("seam search: seams of a rough surface stay short, and the bound gives")
+{
+    const rest_surface smooth = rest_of(test::ball(10)), rough = rest_of(test::noisy(smooth.surface, 0.4));
+    seam_search of_smooth(smooth, {}), of_rough(rough, {});
+    REQUIRE(of_smooth.run());
+    CHECK_FALSE(of_smooth.rough());
+    REQUIRE(of_rough.run());
+    CHECK(of_rough.rough());
+    CHECK(of_rough.result().energy > search_setting{}.bound);
+    CHECK(of_rough.result().energy <= of_rough.setting().bound);
+    CHECK(seam_price(rough, of_rough.result().seam) < 13 * std::sqrt(rough.total));
+    CHECK(pieces_between(rough.facets, of_rough.result().seam).second < 20);
+    check_no_flips(rough, of_rough.result());
+}
+
+TEST_CASE("minimum cuts: as short as those by single augmenting paths")
+{
+    const rest_surface rest = [] // of random prices
+    {
+        rest_surface r = rest_of(test::grid(9, 7));
+        std::minstd_rand random(3);
+        for (idx s = 0; s < static_cast<idx>(r.price.size()); ++s)
+            if (r.twin(s) > s) r.price[at(s)] = r.price[at(r.twin(s))] = 1 + static_cast<double>(random() % 1000);
+        return r;
+    }();
+    const std::vector<char> none(rest.price.size(), 0);
+    for (idx k = 0; k < 20; ++k)
+    {
+        const std::vector<idx> from{3 * k, 3 * k + 1}, to{rest.triangles() - 1 - k, rest.triangles() - 30 - k};
+        double cut = 0;
+        for (const idx s : minimum_cut(rest, none, from, to)) cut += rest.price[at(s)];
+        // The largest flow, by depth first.
+        std::vector<double> left = rest.price;
+        double flow = 0;
+        for (;;)
+        {
+            std::vector<idx> came(at(rest.triangles()), -1), stack = from;
+            idx end = -1;
+            while (!stack.empty() && end < 0)
+            {
+                const idx c = stack.back();
+                stack.pop_back();
+                if (std::find(to.begin(), to.end(), c) != to.end()) end = c;
+                for (idx s = 3 * c; s < 3 * c + 3; ++s)
+                {
+                    if (rest.twin(s) < 0 || !(left[at(s)] > 0)) continue;
+                    const idx d = rest.twin(s) / 3;
+                    if (came[at(d)] >= 0 || std::find(from.begin(), from.end(), d) != from.end()) continue;
+                    came[at(d)] = s;
+                    stack.push_back(d);
+                }
+            }
+            if (end < 0) break;
+            double most = std::numeric_limits<double>::infinity();
+            for (idx c = end; came[at(c)] >= 0; c = came[at(c)] / 3) most = std::min(most, left[at(came[at(c)])]);
+            for (idx c = end; came[at(c)] >= 0; c = came[at(c)] / 3)
+            {
+                left[at(came[at(c)])] -= most;
+                left[at(rest.twin(came[at(c)]))] += most;
+            }
+            flow += most;
+        }
+        CHECK(cut == flow); // whole numbers
     }
 }
 

@@ -6,7 +6,8 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
-#include <map>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -23,7 +24,7 @@ namespace taut::impl
 /// Cuts a few charts, across their waists and off their limbs, where the square is used much better then for the length
 /// of the cuts. One limb less may gain nothing while others hold the square open, so that cuts are made one after the
 /// other, each that which frees most of the room around the charts where none gains by itself; those up to the best
-/// stay.
+/// stay, if they do so in the final layouts, too. All others are drafts and estimates.
 class filled_square
 {
 public:
@@ -31,7 +32,7 @@ public:
     /// `packing`.
     filled_square(const mesh<triangle>& m, const facet_table& f, std::span<const vec2> uv,
                   std::span<const double> price, pack_params packing)
-        : mesh_(m), facets_(f), uv_(uv), price_(price), packing_(std::move(packing))
+        : mesh_(m), facets_(f), uv_(uv), price_(price), packing_(std::move(packing)), mark_(m.cells().size(), 0)
     {
         for (std::size_t c = 0; c < m.cells().size(); ++c)
         {
@@ -43,57 +44,120 @@ public:
     /// seam: one flag a side; longest: what all cuts together may count. Returns the seams with those of the cuts.
     std::vector<char> run(std::vector<char> seam, double longest, const std::function<bool()>& proceed)
     {
-        constexpr double enough = 0.62, worth = 0.1; // use of the square; its gain by length by the root of the area
-        constexpr int most = 8;                      // cuts
+        constexpr double enough = 0.6, worth = 0.1; // use of the square; its gain by length by the root of the area
+        constexpr int most = 8;                     // cuts
         const double root = std::sqrt(area_);
         std::vector<char> best = seam;
-        double best_use = use_of(seam), use = best_use, spent = 0;
+        std::vector<idx> all(mesh_.cells().size());
+        std::iota(all.begin(), all.end(), idx(0));
+        auto charts = charts_of(all, seam);
+        const auto first = seam;
+        const double at_first = use_of(charts, packing_effort::full);
+        if (!(at_first < enough)) return first;
+        double best_use = use_of(charts, packing_effort::estimate), use = best_use, spent = 0, best_spent = 0;
         for (int k = 0; k < most && use < enough && proceed(); ++k)
         {
-            const auto next = next_cut(seam, longest - spent);
-            if (next.sides.empty()) break;
-            for (const std::size_t s : next.sides) seam[s] = seam[u(facets_.twin[s])] = 1;
-            spent += next.price;
-            use = use_of(seam);
-            if (!(use - best_use > worth * (spent - best_spent_) / root)) continue;
+            auto next = next_cut(charts, seam, longest - spent);
+            if (next.cut.sides.empty()) break;
+            cut(seam, next.cut.sides);
+            charts = std::move(next.charts);
+            spent += next.cut.price;
+            use = use_of(charts, packing_effort::estimate);
+            if (!(use - best_use > worth * (spent - best_spent) / root)) continue;
             best = seam;
             best_use = use;
-            best_spent_ = spent;
+            best_spent = spent;
         }
-        return best;
+        if (best_spent == 0) return first;
+        const double gain = use_of(charts_of(all, best), packing_effort::full) - at_first;
+        return gain > worth * best_spent / root ? best : first;
     }
 
     /// How much of the square charts use, about.
-    double use_of(std::span<const char> seam, bool draft = false) const
+    double use_of(std::span<const char> seam)
     {
-        const auto [charts, flat] = laid(seam);
-        return pack_outlined(flat, find_outlines(flat, charts.surface.cells(), charts.first_cell, charts.first_vertex),
-                             packing_, draft)
-            .utilization;
+        std::vector<idx> all(mesh_.cells().size());
+        std::iota(all.begin(), all.end(), idx(0));
+        return use_of(charts_of(all, seam), packing_effort::estimate);
     }
 
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    std::pair<chart_mesh, std::vector<vec2>> laid(std::span<const char> seam) const
+    using candidate = std::pair<double, waist_cutting::cut>; // room that is freed, by what the cut counts
+
+    /// A chart as the packer sees it.
+    struct laid_chart
     {
-        std::pair<chart_mesh, std::vector<vec2>> made{cut_charts(mesh_, facets_, seam), {}};
-        auto& [charts, flat] = made;
-        flat.resize(charts.surface.points().size());
-        for (std::size_t i = 0; i < charts.cell_origins.size(); ++i)
-            for (std::size_t k = 0; k < 3; ++k)
-                flat[u(charts.surface.cells()[i][k])] = uv_[3 * u(charts.cell_origins[i]) + k];
-        return made;
+        std::vector<idx> triangles;                 // ascending
+        std::vector<idx> border;                    // sides
+        double area = 0, room = 0;                  // in the plane; see room_of()
+        std::optional<std::vector<candidate>> cuts; // once they are known
+    };
+
+    struct made_cut
+    {
+        waist_cutting::cut cut;
+        std::vector<laid_chart> charts; // then
+    };
+
+    void cut(std::vector<char>& seam, std::span<const std::size_t> sides) const
+    {
+        for (const std::size_t s : sides) seam[s] = seam[u(facets_.twin[s])] = 1;
     }
 
-    /// Room that triangles keep others from, as it were: the mean of their hull and of the square on the long side of
-    /// their box.
-    double room(std::span<const idx> triangles) const
+    /// The charts that seams leave of these triangles, which are whole charts before.
+    std::vector<laid_chart> charts_of(std::span<const idx> triangles, std::span<const char> seam)
+    {
+        std::vector<laid_chart> charts;
+        for (const idx c : triangles) mark_[u(c)] = 1;
+        for (const idx first : triangles)
+        {
+            if (!std::exchange(mark_[u(first)], char(0))) continue;
+            laid_chart one;
+            one.triangles.push_back(first);
+            for (std::size_t i = 0; i < one.triangles.size(); ++i)
+                for (idx s = 3 * one.triangles[i]; s < 3 * one.triangles[i] + 3; ++s)
+                    if (const idx twin = facets_.twin[u(s)]; twin < 0 || seam[u(s)])
+                        one.border.push_back(s);
+                    else if (std::exchange(mark_[u(twin) / 3], char(0)))
+                        one.triangles.push_back(twin / 3);
+            std::sort(one.triangles.begin(), one.triangles.end());
+            std::sort(one.border.begin(), one.border.end());
+            for (const idx c : one.triangles)
+                one.area += 0.5 * std::abs(orient(at(3 * c), at(3 * c + 1), at(3 * c + 2)).det);
+            one.room = room_of(one.border);
+            charts.push_back(std::move(one));
+        }
+        return charts;
+    }
+
+    const vec2& at(idx corner) const { return uv_[u(corner)]; }
+
+    double use_of(std::span<const laid_chart> charts, packing_effort effort) const
+    {
+        chart_outlines outlines;
+        outlines.first.push_back(0);
+        for (const laid_chart& one : charts)
+        {
+            for (const idx s : one.border)
+            {
+                outlines.edges.push_back({3 * (s / 3) + (s + 1) % 3, 3 * (s / 3) + (s + 2) % 3});
+                outlines.cells.push_back(s / 3);
+            }
+            outlines.first.push_back(static_cast<idx>(outlines.edges.size()));
+            outlines.areas.push_back(one.area);
+        }
+        return pack_outlined(uv_, outlines, packing_, effort).utilization;
+    }
+
+    /// Room that a chart keeps others from, as it were: the mean of its hull and of the square on the long side of its
+    /// box.
+    double room_of(std::span<const idx> border) const
     {
         std::vector<vec2> points;
-        points.reserve(3 * triangles.size());
-        for (const idx c : triangles)
-            for (std::size_t k = 0; k < 3; ++k) points.push_back(uv_[3 * u(c) + k]);
+        points.reserve(border.size());
+        for (const idx s : border) points.push_back(at(3 * (s / 3) + (s + 1) % 3));
         const auto hull = convex_hull(std::move(points));
         double area = 0;
         for (std::size_t k = 2; k < hull.size(); ++k)
@@ -106,64 +170,61 @@ private:
         return 0.5 * (area + side * side);
     }
 
-    using candidate = std::pair<double, waist_cutting::cut>; // room that is freed, by what the cut counts
-
-    /// Cuts of a chart that free room. whole: that of the chart
-    std::vector<candidate> candidates(std::span<const idx> own, std::span<const char> seam, double whole) const
+    /// Cuts of a chart that free room, those first that free most.
+    std::vector<candidate> candidates(const laid_chart& chart, const std::vector<char>& seam)
     {
         std::vector<candidate> found;
-        for (auto& one : waist_cutting(mesh_, own, seam, price_).cuts())
+        for (auto& one : waist_cutting(mesh_, chart.triangles, seam, price_).cuts())
         {
-            std::sort(one.beyond.begin(), one.beyond.end());
-            std::vector<idx> rest;
-            std::set_difference(own.begin(), own.end(), one.beyond.begin(), one.beyond.end(), std::back_inserter(rest));
-            const double freed = whole - room(one.beyond) - room(rest);
+            auto with = seam;
+            cut(with, one.sides);
+            double freed = chart.room;
+            for (const laid_chart& part : charts_of(chart.triangles, with)) freed -= part.room;
             if (freed > 0) found.emplace_back(freed / one.price, std::move(one));
         }
+        std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
         return found;
     }
 
     /// The cut with the largest gain of use by length of a few that free most room; where none has any, the first of
     /// these. longest: what it may count
-    waist_cutting::cut next_cut(std::span<const char> seam, double longest)
+    made_cut next_cut(std::vector<laid_chart>& charts, const std::vector<char>& seam, double longest)
     {
         constexpr std::size_t charts_tried = 2, cuts_tried = 12; // those that waste most; that free most
         constexpr idx largest = 50'000;                          // triangles: minimum cuts of more take long
-        const auto charts = cut_charts(mesh_, facets_, seam);
-        std::vector<std::pair<double, std::vector<idx>>> wasting;
-        for (idx k = 0; k < charts.charts(); ++k)
-        {
-            std::vector<idx> own(charts.cell_origins.begin() + charts.first_cell[u(k)],
-                                 charts.cell_origins.begin() + charts.first_cell[u(k) + 1]);
-            std::sort(own.begin(), own.end());
-            wasting.emplace_back(room(own), std::move(own));
-        }
+        std::vector<std::size_t> wasting(charts.size());
+        std::iota(wasting.begin(), wasting.end(), std::size_t(0));
         std::stable_sort(wasting.begin(), wasting.end(),
-                         [](const auto& a, const auto& b) { return a.first > b.first; });
+                         [&](std::size_t a, std::size_t b) { return charts[a].room > charts[b].room; });
         wasting.resize(std::min(wasting.size(), charts_tried));
-        std::vector<candidate> found;
-        for (const auto& [whole, own] : wasting)
+        std::vector<std::pair<const candidate*, std::size_t>> found; // of which chart
+        for (const std::size_t k : wasting)
         {
-            if (static_cast<idx>(own.size()) > largest) continue;
-            auto& known = known_[own];
-            if (known.empty()) known = candidates(own, seam, whole);
-            for (const auto& one : known)
-                if (one.second.price <= longest) found.push_back(one);
+            if (static_cast<idx>(charts[k].triangles.size()) > largest) continue;
+            if (!charts[k].cuts) charts[k].cuts = candidates(charts[k], seam);
+            for (const candidate& one : *charts[k].cuts)
+                if (one.second.price <= longest) found.emplace_back(&one, k);
         }
-        std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::stable_sort(found.begin(), found.end(),
+                         [](const auto& a, const auto& b) { return a.first->first > b.first->first; });
         found.resize(std::min(found.size(), cuts_tried));
-        std::size_t best = 0;
-        double most = 0;
-        const double use = found.empty() ? 0.0 : use_of(seam, true);
-        for (std::size_t i = 0; i < found.size(); ++i)
+        made_cut best;
+        double most = -1;
+        const double use = found.empty() ? 0.0 : use_of(charts, packing_effort::draft);
+        for (const auto& [one, k] : found)
         {
-            std::vector<char> with(seam.begin(), seam.end());
-            for (const std::size_t s : found[i].second.sides) with[s] = with[u(facets_.twin[s])] = 1;
-            const double gain = (use_of(with, true) - use) / found[i].second.price;
-            if (gain > most) best = i;
-            most = std::max(most, gain);
+            auto with = seam;
+            cut(with, one->second.sides);
+            auto then = charts;
+            auto parts = charts_of(charts[k].triangles, with);
+            then.erase(then.begin() + static_cast<std::ptrdiff_t>(k));
+            std::move(parts.begin(), parts.end(), std::back_inserter(then));
+            const double gain = std::max(0.0, use_of(then, packing_effort::draft) - use) / one->second.price;
+            if (!(gain > most)) continue;
+            most = gain;
+            best = {one->second, std::move(then)};
         }
-        return found.empty() ? waist_cutting::cut{} : std::move(found[best].second);
+        return best;
     }
 
     const mesh<triangle>& mesh_;
@@ -171,8 +232,8 @@ private:
     std::span<const vec2> uv_;
     std::span<const double> price_;
     pack_params packing_;
-    double area_ = 0, best_spent_ = 0;
-    std::map<std::vector<idx>, std::vector<candidate>> known_; // of charts, by their triangles
+    double area_ = 0;
+    std::vector<char> mark_; // of triangles, 0 between calls
 };
 
 } // namespace taut::impl

@@ -136,10 +136,10 @@ protected:
     /// Charts along short seams (short_charts.hpp).
     void cut_short();
 
-    /// The charts of a run that has ended; those that have no map yet, or none that is any good, as they are seen.
-    void cut_unfinished(laid_triangles laid, std::span<const char> crosses)
+    /// The charts of a run that has ended; those without a map, or (but for `any`) a good one, as they are seen.
+    void cut_unfinished(laid_triangles laid, std::span<const char> crosses, bool any = false)
     {
-        const double bound = params_.charts.max_distortion;
+        const double bound = any ? std::numeric_limits<double>::max() : params_.charts.max_distortion;
         const double most = std::max(seen_patches::most_energy, std::isfinite(bound) ? bound : 4.0);
         std::vector<char> wanted(laid.energy.size());
         for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
@@ -259,11 +259,16 @@ protected:
     void mend(std::vector<char> bad)
     {
         keep_apart(bad);
+        if (!params_.keep_charts && report_.complete) bad = part_overlaps(std::move(bad));
         if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
     }
 
-    /// Maps these charts anew with their borders kept apart. Clears the flags of those for which that succeeds.
-    void keep_apart(std::vector<char>& bad)
+    /// Parts these charts, one flag each, where they lie on themselves. Returns the flags of those that are unfit then.
+    std::vector<char> part_overlaps(std::vector<char> bad);
+
+    /// Maps these charts anew with borders kept apart (roughly: in a hundred steps). Clears the flags where that
+    /// succeeds.
+    void keep_apart(std::vector<char>& bad, bool roughly = false)
     {
         constexpr idx most = 32; // one by one: more would take long
         const double begin = budget_.total();
@@ -284,6 +289,7 @@ protected:
                                        .holes = true,
                                        .no_overlap = true,
                                        .limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("flatten")}};
+            if (roughly) params.solve.stopping.max_iterations = 100;
             const mesh<triangle> chart(std::move(points), std::move(cells));
             if (!check(chart, {.one_boundary = false}).empty()) continue;
             const auto map = parameterize(queue_, chart, params);

@@ -74,7 +74,7 @@ private:
         int missed = 0;    // maps with their borders kept apart that were above the bound
         double first_above = 0, asked = 0; // excess of the first turn, what it was to become less since
         bool rough = false;
-        std::optional<laid_charts> best, first;
+        std::optional<laid_charts> best, first, loose; // loose: within the bound where charts may lie on themselves
         std::vector<char> cut_before = c_.seam_;
         for (int turn = 0; turn < turns && c_.report_.complete; ++turn)
         {
@@ -85,6 +85,7 @@ private:
             const double flattened = now.mean;
             const double overlap = crossing > 0 ? cutting.overlap() : 0;
             double excess = now.mean + rate * overlap - bound;
+            if (!loose && flattened <= bound) loose = now;
             if (excess <= 0 && crossing > 0)
             {
                 c_.keep_apart(now.bad);
@@ -101,7 +102,8 @@ private:
             // Noise on a surface costs what no seam saves: then they stay as they are for what is large.
             const double above = flattened - bound;
             if (turn == 0) first_above = above;
-            rough = above > 1.5 * allowed || (turn > 1 && above > 0.5 * allowed && above > first_above - 0.3 * asked);
+            rough = cutting.rough() || above > 1.5 * allowed ||
+                    (turn > 1 && above > 0.5 * allowed && above > first_above - 0.3 * asked);
             if (rough && flattened < std::numeric_limits<double>::infinity() && !(best && best->holds))
             {
                 if (turn == 0)
@@ -123,6 +125,8 @@ private:
             if (holds && seams == cut_before) break; // nothing can be sewn up
             c_.seam_ = cut_before = std::move(seams);
         }
+        const bool part = !best->holds && !rough && loose;
+        if (part) best = std::move(*loose);
         c_.seam_ = std::move(best->seam);
         c_.charts_.emplace(std::move(best->charts));
         c_.flat_ = std::move(best->flat);
@@ -134,8 +138,11 @@ private:
                 sew_up(std::vector<char>(c_.energy_.size(), 1), false, limits);
         }
         if (!c_.report_.complete) return lay_unfinished();
-        if (!best->holds) c_.keep_apart(best->bad);
-        if (!best->holds && !rough) best->bad.assign(best->bad.size(), 1);
+        if (part)
+            best->bad = c_.part_overlaps(std::move(best->bad));
+        else if (!best->holds)
+            c_.keep_apart(best->bad, rough_);
+        if (!best->holds && !rough && !part) best->bad.assign(best->bad.size(), 1);
         best->bad.resize(c_.energy_.size(), 0);
         for (std::size_t k = 0; k < c_.energy_.size(); ++k)
             if (!(c_.energy_[k] <= c_.params_.charts.max_distortion)) best->bad[k] = 1;
@@ -148,12 +155,31 @@ private:
     /// Of a run that has ended: what has no good map becomes patches.
     void lay_unfinished()
     {
+        if (rough_) take_starts();
         const auto bad = c_.unfit();
         std::vector<char> crosses(c_.mesh_.cells().size(), 0);
         for (std::size_t k = 0; k < bad.size(); ++k)
             for (auto i = u(c_.charts_->first_cell[k]); i < u(c_.charts_->first_cell[k + 1]); ++i)
                 crosses[u(c_.charts_->cell_origins[i])] = bad[k];
-        c_.cut_unfinished(c_.triangles_as_laid(), crosses);
+        c_.cut_unfinished(c_.triangles_as_laid(), crosses, rough_);
+    }
+
+    /// Gives charts without a map the one that it would begin with: what is seen of a rough surface are single
+    /// triangles.
+    void take_starts()
+    {
+        auto start = c_.params_.flattening;
+        start.initial = {};
+        start.max_iterations = 0;
+        start.tuning.largest = std::numeric_limits<double>::max(); // none by multigrid
+        const auto made = flatten_charts(c_.queue_, *c_.charts_, start);
+        for (std::size_t k = 0; k < c_.energy_.size(); ++k)
+        {
+            if (c_.energy_[k] < std::numeric_limits<double>::infinity()) continue;
+            std::copy(made.uv.begin() + c_.charts_->first_vertex[k], made.uv.begin() + c_.charts_->first_vertex[k + 1],
+                      c_.flat_.begin() + c_.charts_->first_vertex[k]);
+            c_.energy_[k] = made.charts[k].energy;
+        }
     }
 
     std::string note_above(double mean, bool rough) const
@@ -192,7 +218,9 @@ private:
         straighten(c_.mesh_, c_.facets_, c_.seam_, cutting.settled(), c_.params_.charts.together, limits, prices,
                    {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
         c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
-        auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(), true);
+        // Of a rough surface the bound is out of reach, and the last digits take most of the steps.
+        rough_ = cutting.rough();
+        auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(), !rough_);
         c_.energy_.clear();
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
@@ -335,12 +363,31 @@ private:
     }
 
     flat_charts& c_;
+    bool rough_ = false;     // see short_cutting::rough()
     std::vector<char> rest_; // seams of what the search found none for, one flag a side
 };
 
 inline void flat_charts::cut_short()
 {
     short_charts(*this).run();
+}
+
+inline std::vector<char> flat_charts::part_overlaps(std::vector<char> bad)
+{
+    std::vector<idx> some;
+    for (std::size_t k = 0; k < bad.size(); ++k)
+        if (bad[k] && energy_[k] < std::numeric_limits<double>::infinity())
+            for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
+                some.push_back(charts_->cell_origins[i]);
+    if (some.empty()) return bad;
+    std::sort(some.begin(), some.end());
+    auto laid = triangles_as_laid();
+    if (!part_laid(mesh_, {seam_, laid.uv, some}, side_prices(mesh_, facets_, params_.charts.together, factors_)))
+        return bad;
+    cut(laid);
+    const ideal_elements<triangle> ideal(charts_->surface);
+    for (std::size_t k = 0; k < energy_.size(); ++k) energy_[k] = area_and_energy(*charts_, k, flat_, ideal).second;
+    return unfit();
 }
 
 } // namespace taut::impl

@@ -63,10 +63,17 @@ namespace taut::impl
 
 struct chart_outlines;
 
+/// How long a layout is looked for, where the scale is unknown.
+enum class packing_effort
+{
+    draft,    ///< to tell the good ones of many sets of charts
+    estimate, ///< to compare two sets of charts, within some hundredths
+    full
+};
+
 /// Packs charts with known borders in these coordinates.
-/// trial: quickly, to compare charts with others; only places on a grid of unknown scale are found more quickly
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params,
-                      bool trial = false);
+                      packing_effort effort = packing_effort::full);
 
 } // namespace taut::impl
 

@@ -31,10 +31,10 @@ namespace taut::impl
 class packer
 {
 public:
-    packer(std::span<const piece> pieces, const pack_params& params, bool trial)
+    packer(std::span<const piece> pieces, const pack_params& params, packing_effort effort)
         : pieces_(pieces),
           params_(params),
-          trial_(trial),
+          effort_(effort),
           limits_(params.limits.time_limit, params.limits.observer),
           tiles_(params.walls.empty() ? std::min(params.tiles, static_cast<int>(pieces.size())) : params.tiles)
     {
@@ -63,9 +63,17 @@ public:
         // Of many pieces quarter turns are enough; few, or one that is longer than a tile could be, need more.
         double longest = 0;
         for (const piece& p : pieces_) longest = std::max({longest, p.box.x, p.box.y});
+        constexpr std::size_t few = 16;
         const double side = estimated_side();
+        // A coarse grid leads to other layouts, of few pieces now and then to better ones, in little time.
+        if (effort_ == packing_effort::full && params_.rotate && pieces_.size() <= few)
+        {
+            trial_ = true;
+            search(std::max(side, longest), 8);
+        }
+        trial_ = effort_ != packing_effort::full;
         search(std::max(side, longest), !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
-        if (params_.rotate && !trial_ && (pieces_.size() <= 16 || longest > 0.8 * side))
+        if (params_.rotate && !trial_ && (pieces_.size() <= few || longest > 0.8 * side))
             search(std::max(side, longest / std::numbers::sqrt2), 16);
         packed_.complete = !limits_.over();
         return std::move(packed_);
@@ -220,7 +228,7 @@ private:
             side = std::max({idx{8}, narrowest, static_cast<idx>(std::lround(side * std::sqrt(filled)))});
         }
         if (!best.complete) return;
-        if (!trial_) reorder(best, least, narrowest);
+        if (effort_ != packing_effort::draft) reorder(best, least, narrowest);
         keep(best, least);
     }
 
@@ -242,7 +250,8 @@ private:
     void reorder(tile_layout& best, double& least, idx narrowest)
     {
         constexpr std::size_t few = 16;
-        const std::size_t n = pieces_.size(), tries = std::min<std::size_t>(100, 3000 / n), more = n <= few ? 120 : 0;
+        const std::size_t n = pieces_.size(), part = trial_ ? 4 : 1,
+                          tries = std::min<std::size_t>(100, 3000 / n) / part, more = n <= few ? 120 / part : 0;
         std::minstd_rand lot(1);
         double last = least;
         std::vector<idx> only(n, -1);                                        // pose of each piece, -1: any
@@ -343,7 +352,8 @@ private:
 
     std::span<const piece> pieces_;
     const pack_params& params_;
-    bool trial_;
+    packing_effort effort_;
+    bool trial_ = true; // on a coarse grid, few layouts
     budget limits_;
     idx tiles_; // that pieces can be in: one needs no second one
     double area_ = 0, length_ = 0;
@@ -354,7 +364,8 @@ private:
     packing packed_;
 };
 
-packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params, bool trial)
+packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params,
+                      packing_effort effort)
 {
     params.validate(outlines.charts());
     double area = 0;
@@ -362,7 +373,7 @@ packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, 
     if (!(area > 0)) throw packing_error(packing_fault::no_area, {}, "the charts have no area; flatten them again");
     const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
     if (params.on_grid()) return grid_packer(pieces, params).run();
-    packing packed = packer(pieces, params, trial).run();
+    packing packed = packer(pieces, params, effort).run();
     packed.resolution = params.resolution;
     packed.tiles = params.tiles;
     return packed;

@@ -13,55 +13,130 @@
 namespace taut::impl
 {
 
-/// The sides of least price that part two sets of triangles of a chart: augmenting paths (Edmonds, Karp 1972) in the
-/// dual graph. Each edge by its side on the side of `from`. Empty where seams part them already.
+/// The sides of least price that part two disjoint sets of triangles of a chart, with the fewest triangles on the side
+/// of `from`: blocking flows in the dual graph (Dinic 1970). Each edge by its side on the side of `from`. Empty where
+/// seams part them already.
+class minimum_cutting
+{
+public:
+    minimum_cutting(const rest_surface& rest, std::span<const char> seam, std::span<const idx> from,
+                    std::span<const idx> to)
+        : rest_(rest),
+          seam_(seam),
+          from_(from),
+          least_(1e-12 * std::sqrt(rest.total)),
+          flow_(rest.price.size(), 0),
+          target_(rest.surface.cells().size(), 0),
+          level_(target_.size()),
+          tried_(target_.size())
+    {
+        for (const idx c : to) target_[u(c)] = 1;
+        for (const idx c : from) level_[u(c)] = 1;
+        for (const idx c : from) // those with neighbours that are not among them
+            for (idx s = 3 * c; s < 3 * c + 3; ++s)
+                if (rest.twin(s) >= 0 && level_[u(rest.twin(s) / 3)] == 0 && (start_.empty() || start_.back() != c))
+                    start_.push_back(c);
+    }
+
+    std::vector<idx> run()
+    {
+        while (reach())
+            for (const idx c : start_) block_from(c);
+        std::vector<idx> cut;
+        for (const idx c : queue_)
+            for (idx s = 3 * c; s < 3 * c + 3; ++s)
+                if (rest_.twin(s) >= 0 && !seam_[u(s)] && level_[u(rest_.twin(s) / 3)] == none) cut.push_back(s);
+        return cut;
+    }
+
+private:
+    static constexpr idx none = -1;
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+
+    double room(idx s) const { return rest_.twin(s) < 0 || seam_[u(s)] ? 0.0 : rest_.price[u(s)] - flow_[u(s)]; }
+
+    /// Finds the number of edges to all triangles that flow can still reach, up to the nearest target. False if none is
+    /// reached.
+    bool reach()
+    {
+        std::fill(level_.begin(), level_.end(), none);
+        std::fill(tried_.begin(), tried_.end(), static_cast<unsigned char>(0));
+        queue_ = start_;
+        for (const idx c : from_) level_[u(c)] = 0;
+        idx last = std::numeric_limits<idx>::max();
+        for (std::size_t i = 0; i < queue_.size() && level_[u(queue_[i])] < last; ++i)
+            for (idx s = 3 * queue_[i]; s < 3 * queue_[i] + 3; ++s)
+            {
+                if (room(s) <= least_) continue;
+                const idx c = rest_.twin(s) / 3;
+                if (level_[u(c)] != none) continue;
+                level_[u(c)] = level_[u(queue_[i])] + 1;
+                queue_.push_back(c);
+                if (target_[u(c)]) last = level_[u(c)];
+            }
+        return last < std::numeric_limits<idx>::max();
+    }
+
+    /// Fills ways from a triangle to targets, each one level further at every edge, until there is none left.
+    void block_from(idx begin)
+    {
+        way_.clear();
+        for (idx c = begin;;)
+        {
+            if (target_[u(c)])
+            {
+                c = fill_way();
+                continue;
+            }
+            unsigned char& k = tried_[u(c)];
+            for (; k < 3; ++k)
+                if (const idx s = 3 * c + k; room(s) > least_ && level_[u(rest_.twin(s) / 3)] == level_[u(c)] + 1)
+                    break;
+            if (k < 3)
+            {
+                way_.push_back(3 * c + k);
+                c = rest_.twin(way_.back()) / 3;
+                continue;
+            }
+            if (way_.empty()) return;
+            c = way_.back() / 3; // a dead end
+            way_.pop_back();
+            ++tried_[u(c)];
+        }
+    }
+
+    /// Returns where the way ends then: before the first of its edges with least room.
+    idx fill_way()
+    {
+        std::size_t full = 0;
+        for (std::size_t i = 1; i < way_.size(); ++i)
+            if (room(way_[i]) < room(way_[full])) full = i;
+        const double most = room(way_[full]);
+        for (const idx s : way_)
+        {
+            flow_[u(s)] += most;
+            flow_[u(rest_.twin(s))] -= most;
+        }
+        const idx c = way_[full] / 3;
+        way_.resize(full);
+        return c;
+    }
+
+    const rest_surface& rest_;
+    std::span<const char> seam_;
+    std::span<const idx> from_;
+    double least_;
+    std::vector<double> flow_;         // one a side
+    std::vector<char> target_;         // one a triangle
+    std::vector<idx> level_;           // edges from the start, one a triangle
+    std::vector<unsigned char> tried_; // sides that lead no further, one a triangle
+    std::vector<idx> start_, queue_, way_;
+};
+
 inline std::vector<idx> minimum_cut(const rest_surface& rest, std::span<const char> seam, std::span<const idx> from,
                                     std::span<const idx> to)
 {
-    const auto u = rest_surface::u;
-    constexpr idx none = -2, source = -1;
-    const std::size_t cells = rest.surface.cells().size();
-    std::vector<double> flow(3 * cells, 0);
-    const auto room = [&](idx s) { return rest.twin(s) < 0 || seam[u(s)] ? 0.0 : rest.price[u(s)] - flow[u(s)]; };
-    const double least = 1e-12 * std::sqrt(rest.total);
-    std::vector<char> target(cells, 0);
-    for (const idx c : to) target[u(c)] = 1;
-    std::vector<idx> came(cells), queue, start;
-    for (const idx c : from) came[u(c)] = source;
-    for (const idx c : from) // those with neighbours that are not among them
-        for (idx s = 3 * c; s < 3 * c + 3; ++s)
-            if (rest.twin(s) >= 0 && came[u(rest.twin(s) / 3)] != source && (start.empty() || start.back() != c))
-                start.push_back(c);
-    for (;;)
-    {
-        std::fill(came.begin(), came.end(), none);
-        queue = start;
-        for (const idx c : from) came[u(c)] = source;
-        idx end = -1;
-        for (std::size_t i = 0; i < queue.size() && end < 0; ++i)
-            for (idx s = 3 * queue[i]; s < 3 * queue[i] + 3 && end < 0; ++s)
-            {
-                if (room(s) <= least) continue;
-                const idx c = rest.twin(s) / 3;
-                if (came[u(c)] != none) continue;
-                came[u(c)] = s;
-                queue.push_back(c);
-                if (target[u(c)]) end = c;
-            }
-        if (end < 0) break;
-        double most = std::numeric_limits<double>::infinity();
-        for (idx c = end; came[u(c)] >= 0; c = came[u(c)] / 3) most = std::min(most, room(came[u(c)]));
-        for (idx c = end; came[u(c)] >= 0; c = came[u(c)] / 3)
-        {
-            flow[u(came[u(c)])] += most;
-            flow[u(rest.twin(came[u(c)]))] -= most;
-        }
-    }
-    std::vector<idx> cut;
-    for (const idx c : queue)
-        for (idx s = 3 * c; s < 3 * c + 3; ++s)
-            if (rest.twin(s) >= 0 && !seam[u(s)] && came[u(rest.twin(s) / 3)] == none) cut.push_back(s);
-    return cut;
+    return minimum_cutting(rest, seam, from, to).run();
 }
 
 } // namespace taut::impl

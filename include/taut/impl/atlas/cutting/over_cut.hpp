@@ -82,8 +82,8 @@ public:
     /// least: of a way's weight, where the potential is greatest; 1: plain lengths
     over_cutting(const rest_surface& rest, double least) : rest_(rest), potential_(rest), least_(least) {}
 
-    /// Adds ways to a seam, `most` at most. Returns how many.
-    int run(std::vector<char>& seam, double stop, int most)
+    /// Adds ways to a seam, `most` at most, while it counts less than `longest`. Returns how many.
+    int run(std::vector<char>& seam, double stop, int most, double longest = std::numeric_limits<double>::infinity())
     {
         const auto u = rest_surface::u;
         const auto greatest = [](std::span<const double> x)
@@ -91,8 +91,10 @@ public:
             const auto by_size = [](double a, double b) { return std::abs(a) < std::abs(b); };
             return static_cast<idx>(std::max_element(x.begin(), x.end(), by_size) - x.begin());
         };
+        double length = seam_price(rest_, seam);
         for (int added = 0; added < most; ++added)
         {
+            if (!(length < longest)) return added;
             auto on = seam_vertices(rest_, seam);
             const bool closed = std::find(on.begin(), on.end(), char(1)) == on.end();
             if (closed) on[u(first_tip())] = 1;
@@ -105,7 +107,11 @@ public:
             { return rest_.price[u(s)] * 0.5 * (weight(rest_.start(s)) + weight(rest_.end(s))); };
             const auto way = edge_way(rest_, on, tip, price);
             if (way.empty()) return added;
-            for (const idx s : way) set_seam(rest_, seam, s, 1);
+            for (const idx s : way)
+            {
+                set_seam(rest_, seam, s, 1);
+                length += rest_.price[u(s)];
+            }
         }
         return most;
     }

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include <taut/impl/atlas/cutting/laid_part.hpp>
 #include <taut/impl/atlas/cutting/minimum_cut.hpp>
 #include <taut/impl/atlas/cutting/overlap_layers.hpp>
 
@@ -64,6 +66,31 @@ inline int part_charts(const rest_surface& rest, flat_surface& flat, const parti
         relax(rest, flat, 3, 1e-4);
     }
     return made;
+}
+
+/// Parts charts where they lie on themselves by the shortest cuts between the layers, largest first. The maps stay, so
+/// that it ends after few cuts a layer, whatever the surface. Returns whether something has changed.
+/// price: what a seam counts, one a side of the surface
+inline bool part_laid(const mesh<triangle>& m, const laid_seams& laid, std::span<const double> price)
+{
+    constexpr int rounds = 8, most = 400; // cuts
+    laid_part own = laid_part::of(m, laid, {}, {});
+    for (std::size_t s = 0; s < own.rest.price.size(); ++s) own.rest.price[s] = price[own.part.origin(s)];
+    int made = 0;
+    for (int round = 0, before = -1; round < rounds && made < most && made != before; ++round)
+    {
+        before = made;
+        for (const overlap_layers& one : find_overlaps(own.rest, own.flat))
+        {
+            if (one.below.empty() || one.above.empty()) continue;
+            const auto cut = minimum_cut(own.rest, own.flat.seam, one.below, one.above); // empty: parted by another one
+            for (const idx s : cut) set_seam(own.rest, own.flat.seam, s, 1);
+            made += !cut.empty();
+            if (made == most) break;
+        }
+    }
+    if (made > 0) own.write(laid);
+    return made > 0;
 }
 
 } // namespace taut::impl

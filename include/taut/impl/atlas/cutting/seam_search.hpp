@@ -56,6 +56,10 @@ public:
     const flat_surface& result() const { return flat_; }
     const search_setting& setting() const { return setting_; }
 
+    /// Whether the surface is so rough that seams of a sensible length are above the bound. These are as good as they
+    /// are.
+    bool rough() const { return rough_; }
+
     /// What the seams cost, and what is to be kept apart in the plane: that takes distortion, which others then lack.
     double price() const
     {
@@ -115,14 +119,17 @@ private:
             straighten(rest_.surface, rest_.facets, flat_.seam, {}, {}, unlimited, rest_.price);
         // Loops around handles are never sewn up: where there are many, charts that go around none are better.
         constexpr double most_loops = 12; // length by the root of the area
-        if (seam_price(rest_, flat_.seam) > most_loops * std::sqrt(rest_.total)) return false;
+        const double root = std::sqrt(rest_.total);
+        if (seam_price(rest_, flat_.seam) > most_loops * root) return false;
+        // Strips of a smooth surface that are half as wide have a sixteenth of the excess.
+        const double longest = most_loops * root * std::pow(std::max(1.0, 0.1 / (setting_.bound - 4)), 0.25);
         over_cutting more(rest_, setting_.least_weight);
         constexpr int most = 100;
         const double enough = 4 + setting_.over * (setting_.bound - 4);
         double stop = 0.7;
         for (int turn = 0; turn < 12 && proceed(); ++turn, stop *= 0.8)
         {
-            const int added = more.run(flat_.seam, stop, most);
+            const int added = more.run(flat_.seam, stop, most, longest);
             if (turn > 0 && added == 0) continue;
             number_fans(rest_, flat_);
             if (flat_.uv.empty() && !start()) return false;
@@ -132,10 +139,15 @@ private:
         // Corners that few triangles meet in have little curvature for what they distort.
         for (int turn = 0; turn < 40 && flat_.energy > enough && flat_.energy < infinite && proceed(); ++turn)
         {
-            if (seam_price(rest_, flat_.seam) > most_loops * std::sqrt(rest_.total)) break;
+            if (seam_price(rest_, flat_.seam) > longest) break;
             if (cut_strained(rest_, flat_, 0.5 * (flat_.energy - enough)) == 0) break;
             number_fans(rest_, flat_);
             relax(rest_, flat_, 60, 1e-4);
+        }
+        if (flat_.energy > setting_.bound && flat_.energy < infinite && seam_price(rest_, flat_.seam) >= longest)
+        {
+            rough_ = true;
+            setting_.bound = 4 + (flat_.energy - 4) / setting_.over;
         }
         return flat_.energy < infinite;
     }
@@ -232,7 +244,7 @@ private:
     search_setting setting_;
     flat_surface flat_;
     std::vector<state> trail_; // within the bound, of ever fewer seams
-    bool parted_ = false;
+    bool parted_ = false, rough_ = false;
     double worth_ = 0; // of an overlap, by its area
 };
 

@@ -98,12 +98,13 @@ public:
         for_each(searches_.size(),
                  [&](std::size_t k)
                  {
-                     if (!searches_[k] || !searches_[k]->search) return;
+                     if (!searches_[k] || !searches_[k]->search || searches_[k]->search->rough()) return;
                      piece_search& p = *searches_[k];
                      // Of few triangles a cut changes much, and may have left more than is needed.
                      if (more < 0) p.bound = std::min(p.bound, p.search->result().energy);
                      p.bound = std::max(p.bound + more, 4 + 0.8 * (p.bound - 4));
                      if (p.search->adjust(p.bound, everywhere && params_.part)) return;
+                     if (std::exchange(p.anew, true)) return; // another search would end like this one
                      auto anew = std::make_unique<seam_search>(*p.rest, p.search->setting());
                      if (anew->run()) p.search = std::move(anew);
                  });
@@ -111,6 +112,15 @@ public:
 
     /// That given seams leave.
     std::size_t pieces() const { return searches_.size(); }
+
+    /// Whether most of the surface is so rough that the bound is given up.
+    bool rough() const
+    {
+        double sum = 0;
+        for (const auto& p : searches_)
+            if (p && p->search && p->search->rough()) sum += p->rest->total;
+        return sum > 0.5 * area();
+    }
 
     /// The part of the area that lies on other parts of its chart.
     double overlap() const
@@ -189,6 +199,7 @@ private:
         std::optional<rest_surface> rest;
         std::unique_ptr<seam_search> search;
         double bound = 4, price = 0;
+        bool anew = false; // it was searched a second time
     };
 
     std::size_t cells(std::size_t k) const { return u(pieces_.first_cell[k + 1] - pieces_.first_cell[k]); }
