@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <taut/impl/compute/buffer.ipp>
 #include <taut/impl/compute/choose_device.ipp>
 #include <taut/impl/compute/device.ipp>
 #include <taut/impl/compute/errors.ipp>

@@ -8,6 +8,9 @@
 #include <taut/impl/exact/predicates.ipp>
 #include <taut/impl/mesh/boundary.ipp>
 #include <taut/impl/mesh/describe.ipp>
+#include <taut/impl/mesh/facets.ipp>
 #include <taut/impl/mesh/manifold.ipp>
+#include <taut/impl/mesh/mesh.ipp>
 #include <taut/impl/mesh/order.ipp>
 #include <taut/impl/mesh/tetrahedron.ipp>
+#include <taut/impl/mesh/validate.ipp>
