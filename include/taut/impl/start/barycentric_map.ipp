@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+
 #include <taut/impl/start/barycentric_map.hpp>
 
 namespace taut::impl
