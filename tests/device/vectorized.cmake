@@ -2,7 +2,7 @@
 # PoCL vectorises every element kernel and the gather: see vectorized.sh.
 add_executable(taut_vectorized ${CMAKE_CURRENT_LIST_DIR}/vectorized.cpp)
 target_include_directories(taut_vectorized PRIVATE ${PROJECT_SOURCE_DIR}/tests)
-target_link_libraries(taut_vectorized PRIVATE taut::taut taut_strict)
+target_link_libraries(taut_vectorized PRIVATE taut_strict taut::taut)
 target_compile_options(taut_vectorized PRIVATE $<$<CONFIG:Release>:-O0>)
 add_test(NAME device.vectorized
          COMMAND sh ${CMAKE_CURRENT_LIST_DIR}/vectorized.sh $<TARGET_FILE:taut_vectorized>

@@ -184,4 +184,13 @@ private:
     std::size_t size_ = 0;
 };
 
+// Compiled once, with the bodies.
+extern template class buffer<float>;
+extern template class buffer<double>;
+extern template class buffer<idx>;
+
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/compute/buffer.ipp>
+#endif

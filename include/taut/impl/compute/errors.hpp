@@ -23,13 +23,7 @@ public:
 class device_error : public error
 {
 public:
-    device_error(std::string operation, const std::string& reason, std::string device, int code = 0)
-        : error(operation + ": " + reason + " [device " + device + "]"),
-          operation_(std::move(operation)),
-          device_(std::move(device)),
-          code_(code)
-    {
-    }
+    device_error(std::string operation, const std::string& reason, std::string device, int code = 0);
 
     const std::string& operation() const noexcept { return operation_; }
     /// Name and driver version of the device.
@@ -47,13 +41,7 @@ private:
 class build_error : public device_error
 {
 public:
-    build_error(std::string kernel, std::string log, std::string excerpt, const std::string& device, int code)
-        : device_error("building kernel " + kernel, "the compiler says\n" + log + excerpt, device, code),
-          kernel_(std::move(kernel)),
-          log_(std::move(log)),
-          excerpt_(std::move(excerpt))
-    {
-    }
+    build_error(std::string kernel, std::string log, std::string excerpt, const std::string& device, int code);
 
     const std::string& kernel() const noexcept { return kernel_; }
     const std::string& log() const noexcept { return log_; }
@@ -66,3 +54,7 @@ private:
 };
 
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/compute/errors.ipp>
+#endif

@@ -46,62 +46,21 @@ public:
     /// real: value of the source's macro REAL. Throws build_error, or device_error where the kernel takes double and
     /// the device has none.
     kernel(queue& q, const std::string& source, const std::string& name, const std::string& options = {},
-           scalar_type real = scalar_type::f32)
-        : kernel(q, source, name, options, impl::signature_of(source, name, real))
-    {
-    }
+           scalar_type real = scalar_type::f32);
 
     /// Makes a kernel with the names and types of its arguments.
     kernel(queue& q, const std::string& source, std::string name, const std::string& options,
-           std::vector<impl::parameter> signature)
-        : state_(q.state()), name_(std::move(name)), signature_(std::move(signature))
-    {
-        const auto use = state_->enter();
-        for (const auto& p : signature_)
-            if (p.type == "double") impl::require_fp64(*state_, scalar_type::f64, "kernel " + name_);
-        state_->await(state_->cache.under_way(source, options));
-        kernel_ = state_->cache.find(source, name_, options);
-        under_way_ = state_->cache.under_way(source, options, name_);
-        count_ = kernel_.get_info<cl_uint>(CL_KERNEL_NUM_ARGS);
-    }
+           std::vector<impl::parameter> signature);
 
     /// Throws parameter_error for an argument that is missing, unknown, there twice, or of another type.
     event operator()(range r, std::initializer_list<impl::named_argument> arguments) const
     {
         return launch(r, std::span(arguments.begin(), arguments.size()));
     }
-    event launch(range r, std::span<const impl::named_argument> arguments) const
-    {
-        const auto use = state_->enter();
-        std::vector<bool> bound(signature_.size());
-        std::size_t guess = 0;
-        for (const impl::named_argument& a : arguments)
-        {
-            guess = position(a.name, guess);
-            const auto& p = signature_[guess];
-            if (bound[guess]) refuse("it has " + p.name + " twice");
-            bound[guess] = true;
-            const auto value = a.value.as(p.type);
-            if (value.is_memory() != p.is_memory || value.type() != p.type)
-                refuse(p.name + " is " + describe(p.type, p.is_memory) + ", not " +
-                       describe(value.type(), value.is_memory()));
-            value.set(*state_, kernel_.get(), name_, static_cast<cl_uint>(guess++));
-        }
-        for (std::size_t i = 0; i < bound.size(); ++i)
-            if (!bound[i]) refuse("it needs an argument " + signature_[i].name);
-        return enqueue(r);
-    }
+    event launch(range r, std::span<const impl::named_argument> arguments) const;
 
     /// By position; OpenCL checks sizes only. Throws parameter_error for another number of arguments.
-    event operator()(range r, std::span<const impl::argument> arguments) const
-    {
-        const auto use = state_->enter();
-        if (arguments.size() != count_)
-            refuse("it takes " + std::to_string(count_) + " arguments, not " + std::to_string(arguments.size()));
-        cl_uint i = 0;
-        for (const auto& a : arguments) a.set(*state_, kernel_.get(), name_, i++);
-        return enqueue(r);
-    }
+    event operator()(range r, std::span<const impl::argument> arguments) const;
     template <class... Args>
         requires(sizeof...(Args) > 0 && (std::is_constructible_v<impl::argument, const Args&> && ...))
     event operator()(range r, const Args&... args) const
@@ -114,19 +73,10 @@ public:
     explicit operator bool() const noexcept { return state_ != nullptr; }
 
     /// Throws device_error if it takes another number of arguments.
-    void require_arguments(std::size_t n) const
-    {
-        if (count_ != n)
-            state_->fail("kernel " + name_,
-                         "it takes " + std::to_string(count_) + " arguments, not " + std::to_string(n));
-    }
+    void require_arguments(std::size_t n) const;
 
 private:
-    event enqueue(range r) const
-    {
-        if (under_way_) state_->await(std::exchange(under_way_, nullptr));
-        return state_->launch(kernel_, name_, r);
-    }
+    event enqueue(range r) const;
 
     [[noreturn]] void refuse(const std::string& why) const { throw parameter_error("kernel " + name_, why); }
 
@@ -136,15 +86,7 @@ private:
     }
 
     /// Position of the parameter; guess: its position if the arguments come in order.
-    std::size_t position(const char* name, std::size_t guess) const
-    {
-        for (std::size_t k = 0; k < signature_.size(); ++k, ++guess)
-        {
-            if (guess >= signature_.size()) guess = 0;
-            if (signature_[guess].name == name) return guess;
-        }
-        refuse(std::string("it has no argument ") + name);
-    }
+    std::size_t position(const char* name, std::size_t guess) const;
 
     std::shared_ptr<impl::queue_state> state_;
     boost::compute::kernel kernel_;
@@ -166,11 +108,7 @@ public:
     late_kernel() = default;
     explicit late_kernel(std::function<kernel()> build) : build_(std::move(build)) {}
 
-    event operator()(range r, std::initializer_list<named_argument> arguments) const
-    {
-        if (!built_) built_ = build_();
-        return built_(r, arguments);
-    }
+    event operator()(range r, std::initializer_list<named_argument> arguments) const;
 
 private:
     std::function<kernel()> build_;
@@ -244,3 +182,7 @@ impl::typed_kernel<Args...> queue::kernel(const std::string& source, const std::
 }
 
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/compute/kernel.ipp>
+#endif

@@ -33,58 +33,19 @@ public:
     }
 
     /// A program that will be needed: the other builder hears of it, once.
-    void expect(const std::string& source, const std::string& options)
-    {
-        if (!elsewhere_ || quick_) return;
-        const auto [found, unknown] = entries_.try_emplace(options + '\0' + source);
-        if (unknown) found->second.whole = elsewhere_(source, options, {});
-    }
+    void expect(const std::string& source, const std::string& options);
 
     /// Builds a program, and the other builder hears of kernels of it, once. Does nothing where there is none.
-    void share(const std::string& source, const std::string& options, const std::vector<std::string>& kernels)
-    {
-        if (!elsewhere_ || quick_ || kernels.empty()) return;
-        entry& found = entries_.try_emplace(options + '\0' + source).first->second;
-        if (!found.shared.empty()) return;
-        if (!found.built) build(found, source, kernels.front(), options);
-        found.shared = kernels;
-        found.part = elsewhere_(source, options, kernels);
-    }
+    void share(const std::string& source, const std::string& options, const std::vector<std::string>& kernels);
 
     /// Returns the build of the program by another thread or process, null if there is none.
-    build_under_way under_way(const std::string& source, const std::string& options) const
-    {
-        const auto found = entries_.find(options + '\0' + source);
-        return found == entries_.end() ? nullptr : found->second.whole;
-    }
+    build_under_way under_way(const std::string& source, const std::string& options) const;
     /// Returns the build of a kernel of the program, null if there is none.
-    build_under_way under_way(const std::string& source, const std::string& options, const std::string& name) const
-    {
-        const auto found = entries_.find(options + '\0' + source);
-        if (found == entries_.end()) return nullptr;
-        const auto& shared = found->second.shared;
-        return std::find(shared.begin(), shared.end(), name) == shared.end() ? nullptr : found->second.part;
-    }
+    build_under_way under_way(const std::string& source, const std::string& options, const std::string& name) const;
 
     /// The kernel of that name, built at the first request. Throws build_error if the compiler refuses the source and
     /// device_error if the program has no such kernel.
-    boost::compute::kernel& find(const std::string& source, const std::string& name, const std::string& options)
-    {
-        entry& found = entries_.try_emplace(options + '\0' + source).first->second;
-        const auto known = found.kernels.find(name);
-        if (known != found.kernels.end()) return known->second;
-
-        if (!found.built) build(found, source, name, options);
-        try
-        {
-            return found.kernels.emplace(name, found.program.create_kernel(name)).first->second;
-        }
-        catch (const boost::compute::opencl_error& e)
-        {
-            throw device_error("creating kernel " + name, "the program has no such kernel (" + e.error_string() + ")",
-                               device_.label(), e.error_code());
-        }
-    }
+    boost::compute::kernel& find(const std::string& source, const std::string& name, const std::string& options);
 
     /// Programs built so far, and the seconds that building them took.
     std::size_t builds() const noexcept { return builds_; }
@@ -100,61 +61,18 @@ private:
         std::unordered_map<std::string, boost::compute::kernel> kernels;
     };
 
-    void build(entry& target, const std::string& source, const std::string& name, const std::string& options)
-    {
-        const auto start = std::chrono::steady_clock::now();
-        try
-        {
-            if (!built_without_header(target, source, options)) compile(target, source, options);
-        }
-        catch (const boost::compute::opencl_error& e)
-        {
-            std::string log = log_of(target.program);
-            if (log.empty()) log = e.error_string();
-            if (log.back() != '\n') log += '\n';
-            throw build_error(name, log, impl::build_excerpt(source, log), device_.label(), e.error_code());
-        }
-        target.built = true;
-        ++builds_;
-        seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
+    void build(entry& target, const std::string& source, const std::string& name, const std::string& options);
 
     /// Without warnings: PoCL counts them on the standard error, and without AVX-512 warns of vectors of 512 bits.
-    void compile(entry& target, const std::string& source, const std::string& options)
-    {
-        target.program = boost::compute::program::create_with_source(source, context_);
-        target.program.build((quick_ ? "-cl-std=CL1.2 -w -cl-opt-disable " : "-cl-std=CL1.2 -w ") + options);
-    }
+    void compile(entry& target, const std::string& source, const std::string& options);
 
     /// Builds a program that says it calls few functions without OpenCL's header of all of them, where drivers leave it
     /// out for its guard. False for other programs, and for what such a driver refuses: it may do better with the
     /// header.
-    bool built_without_header(entry& target, const std::string& source, const std::string& options)
-    {
-        if (!quirks::reads_long_header(device_) || !options.starts_with(impl::few_functions)) return false;
-        try
-        {
-            compile(target, impl::kernels::functions + ("#line 1\n" + source), options + " -D_OPENCL_H_");
-            return true;
-        }
-        catch (const boost::compute::opencl_error&)
-        {
-            return false;
-        }
-    }
+    bool built_without_header(entry& target, const std::string& source, const std::string& options);
 
     /// Log of the compiler; empty if the driver failed earlier.
-    static std::string log_of(const boost::compute::program& program)
-    {
-        try
-        {
-            return program.build_log();
-        }
-        catch (const boost::compute::opencl_error&)
-        {
-            return {};
-        }
-    }
+    static std::string log_of(const boost::compute::program& program);
 
     boost::compute::context context_;
     taut::device device_;
@@ -166,3 +84,7 @@ private:
 };
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/compute/program_cache.ipp>
+#endif

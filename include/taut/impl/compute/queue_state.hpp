@@ -21,23 +21,11 @@ namespace taut::impl
 struct queue_state
 {
     queue_state(taut::device d, boost::compute::context c, boost::compute::command_queue q, bool quick,
-                program_builder elsewhere = {})
-        : device(std::move(d)),
-          context(std::move(c)),
-          commands(std::move(q)),
-          cache(context, device, quick, std::move(elsewhere))
-    {
-    }
+                program_builder elsewhere = {});
 
     /// Waits: PoCL compiles at launch, on threads of its own, and crashes if the process ends meanwhile. In a child
     /// that fork() has made there are none, so that it is left as it is.
-    ~queue_state()
-    {
-        if (!made_by_fork())
-            clFinish(commands.get());
-        else
-            clRetainCommandQueue(commands.get());
-    }
+    ~queue_state();
 
     queue_state(const queue_state&) = delete;
     queue_state& operator=(const queue_state&) = delete;
@@ -54,19 +42,10 @@ struct queue_state
     /// warm-ups, in which drivers compile for seconds. What it throws passes through.
     std::function<void()> between_builds;
 
-    void ask_between_builds()
-    {
-        if (!between_builds) return;
-        clFinish(commands.get());
-        between_builds();
-    }
+    void ask_between_builds();
 
     /// Waits for kernel builds of other processes.
-    void await(const build_under_way& elsewhere)
-    {
-        do ask_between_builds();
-        while (elsewhere && elsewhere());
-    }
+    void await(const build_under_way& elsewhere);
 
     [[noreturn]] void fail(const std::string& operation, const std::string& reason, int code = 0) const
     {
@@ -75,12 +54,7 @@ struct queue_state
 
     /// Keeps the queue to the calling thread. Throws device_error where another one is using it, and in a child made by
     /// fork().
-    sole_use enter() const
-    {
-        if (made_by_fork()) refuse_fork("using a queue", device.label());
-        return {user, [this]
-                { fail("using a queue", "another thread is using it now; give each thread a queue of its own"); }};
-    }
+    sole_use enter() const;
 
     /// Runs f; an OpenCL error becomes a device_error that names the operation.
     template <class F>
@@ -98,30 +72,11 @@ struct queue_state
     }
 
     /// Enqueues the kernel with the arguments it has. global = 0 launches nothing.
-    event launch(const boost::compute::kernel& kernel, const std::string& name, range r)
-    {
-        if (r.global == 0) return {};
-        ask_between_builds();
-        if (r.local == 0)
-        {
-            const std::size_t usual = device.is_gpu() ? 128 : 64;
-            if (r.global % usual == 0 && usual <= device.max_group()) r.local = usual;
-        }
-        else if (r.global % r.local != 0 || r.local > device.max_group())
-        {
-            fail("launching " + name, "local size " + std::to_string(r.local) + " must divide the global size " +
-                                          std::to_string(r.global) + " and be at most " +
-                                          std::to_string(device.max_group()));
-        }
-        cl_event raw = nullptr;
-        const cl_int code = clEnqueueNDRangeKernel(commands.get(), kernel.get(), 1, nullptr, &r.global,
-                                                   r.local ? &r.local : nullptr, 0, nullptr, &raw);
-        if (code != CL_SUCCESS)
-            fail("launching " + name, boost::compute::opencl_error::to_string(code) + " (" + std::to_string(code) + ")",
-                 code);
-        ++counters.launches;
-        return event(boost::compute::event(raw, false));
-    }
+    event launch(const boost::compute::kernel& kernel, const std::string& name, range r);
 };
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/compute/queue_state.ipp>
+#endif

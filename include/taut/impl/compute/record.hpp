@@ -85,35 +85,14 @@ struct tag_traits<uniform<T>>
 };
 
 /// Refuses a range that runs beyond a buffer which the kernel reads or writes at the index itself.
-inline void require_range(const queue_state& state, const kernel_text& text, const range& r,
-                          std::span<const argument> arguments)
-{
-    for (const std::size_t i : text.by_index)
-        if (r.global > arguments[i].elements())
-            state.fail("launching " + text.name, "argument " + std::to_string(i) + " is used at [i] for " +
-                                                     std::to_string(r.global) + " indices, and the buffer has " +
-                                                     std::to_string(arguments[i].elements()) + " elements");
-}
+void require_range(const queue_state& state, const kernel_text& text, const range& r,
+                   std::span<const argument> arguments);
 
 /// Recorded kernels assume that what they write overlaps nothing else, so a buffer that is written is bound once.
-inline void require_distinct(const queue_state& state, const kernel_text& text, std::span<const argument> arguments)
-{
-    for (std::size_t i = 0; i < arguments.size(); ++i)
-        for (std::size_t j = i + 1; j < arguments.size(); ++j)
-            if (arguments[i].memory() && arguments[i].memory() == arguments[j].memory() &&
-                (text.arguments[i].kind != argument_kind::in || text.arguments[j].kind != argument_kind::in))
-                state.fail("launching " + text.name,
-                           "arguments " + std::to_string(i) + " and " + std::to_string(j) +
-                               " are one buffer, and the kernel writes to it; use read_write once");
-}
+void require_distinct(const queue_state& state, const kernel_text& text, std::span<const argument> arguments);
 
 /// Refuses a recording that computes in double, even inside only, on a device that cannot.
-inline void require_fp64(const queue_state& state, const kernel_text& text)
-{
-    if (!state.device.has_fp64() && text.source.find("cl_khr_fp64") != std::string::npos)
-        state.fail("building kernel " + text.name,
-                   "it computes in double and the device has no double precision (fp64); trace it with float");
-}
+void require_fp64(const queue_state& state, const kernel_text& text);
 
 /// Form of recorded kernels on a device: long runs of indices for CPUs, one index per item for GPUs. Both take any
 /// count; see kernel_form.
@@ -123,21 +102,10 @@ inline kernel_form form_for(const device& d)
 }
 
 /// The items that a recorded kernel needs for r.global indices; r.local is the group size where items are grouped.
-inline range items_for(kernel_form form, const range& r)
-{
-    constexpr std::size_t length = run_length;
-    if (form == kernel_form::run) return {(r.global + length - 1) / length, 1};
-    const std::size_t group = r.local ? r.local : 128;
-    return {padded(r.global, group), group};
-}
+range items_for(kernel_form form, const range& r);
 
 /// The number of indices as the kernel takes it.
-inline idx count_of(const queue_state& state, const std::string& name, const range& r)
-{
-    if (r.global > static_cast<std::size_t>(std::numeric_limits<idx>::max()))
-        state.fail("launching " + name, "more than 2^31 indices");
-    return static_cast<idx>(r.global);
-}
+idx count_of(const queue_state& state, const std::string& name, const range& r);
 
 /// Kernels that are recorded one by one and built as one program: what a driver does once a build, it does once for all
 /// of them (PoCL reads OpenCL's header, some 50 ms, even where its cache holds the program).
@@ -149,15 +117,7 @@ class traced_program
 public:
     /// common: kernels that other such programs have, too, as a program apart, which the driver's cache may hold.
     /// Throws parameter_error for two kernels of one name.
-    traced_program(taut::queue q, std::vector<kernel_text> texts, std::vector<kernel_text> common = {})
-        : queue_(std::move(q)),
-          source_(impl::joined_source(texts)),
-          common_source_(impl::joined_source(common)),
-          common_begin_(texts.size()),
-          texts_(std::move(texts))
-    {
-        std::move(common.begin(), common.end(), std::back_inserter(texts_));
-    }
+    traced_program(taut::queue q, std::vector<kernel_text> texts, std::vector<kernel_text> common = {});
 
     /// Source of the program in OpenCL C, without the parts kept apart.
     const std::string& source() const noexcept { return source_; }
@@ -173,21 +133,12 @@ public:
 
     /// Builds the program, and has kernels of it compiled elsewhere, where somebody does: see
     /// queue_options::build_elsewhere.
-    void share(const std::vector<std::string>& names) const
-    {
-        const auto use = queue_.state()->enter();
-        queue_.state()->cache.share(source_, impl::few_functions, names);
-    }
+    void share(const std::vector<std::string>& names) const;
 
     taut::queue& queue() const noexcept { return queue_; }
 
 private:
-    std::size_t position(const std::string& name) const
-    {
-        for (std::size_t k = 0; k < texts_.size(); ++k)
-            if (texts_[k].name == name) return k;
-        throw parameter_error(name, "the program has no kernel of this name");
-    }
+    std::size_t position(const std::string& name) const;
 
     mutable taut::queue queue_;
     std::string source_, common_source_;
@@ -201,10 +152,7 @@ class recorded_kernel
 public:
     recorded_kernel() = default;
     recorded_kernel(queue& q, const kernel_text& text) : recorded_kernel(q, text, text.source) {}
-    recorded_kernel(const traced_program& p, const std::string& name)
-        : recorded_kernel(p.queue(), p.text(name), p.source_of(name))
-    {
-    }
+    recorded_kernel(const traced_program& p, const std::string& name);
 
     /// Runs over the indices 0 .. r.global - 1, for any number of them. The group size r.local counts on GPUs alone.
     /// Arguments are bound by the names of the recording, or by position.
@@ -216,22 +164,7 @@ public:
     {
         return (*this)(r, std::span(arguments));
     }
-    event operator()(range r, std::span<const named_argument> arguments) const
-    {
-        std::vector<impl::argument> by_position(text_.arguments.size(), idx(0));
-        std::vector<bool> bound(text_.arguments.size() - 1);
-        std::size_t at = 0;
-        for (const auto& a : arguments)
-        {
-            at = position(a.name, at);
-            if (bound[at]) refuse(std::string("it has ") + a.name + " twice");
-            bound[at] = true;
-            by_position[at++] = a.value;
-        }
-        for (std::size_t i = 0; i < bound.size(); ++i)
-            if (!bound[i]) refuse("it needs an argument " + text_.arguments[i].name);
-        return launch(r, by_position);
-    }
+    event operator()(range r, std::span<const named_argument> arguments) const;
     template <class... Args>
         requires(sizeof...(Args) > 0 && (std::is_constructible_v<impl::argument, const Args&> && ...))
     event operator()(range r, const Args&... args) const
@@ -244,45 +177,14 @@ public:
     const kernel_text& text() const noexcept { return text_; }
 
 private:
-    recorded_kernel(queue& q, kernel_text text, const std::string& source) : state_(q.state()), text_(std::move(text))
-    {
-        impl::require_fp64(*state_, text_);
-        if (text_.form == kernel_form::item) state_->fail("kernel " + text_.name, "it was recorded without a count");
-        kernel_ = {q, source, text_.name, impl::few_functions, std::vector<impl::parameter>{}};
-    }
+    recorded_kernel(queue& q, kernel_text text, const std::string& source);
 
     /// arguments: all of them, and room for the count of indices.
-    event launch(range r, std::span<impl::argument> arguments) const
-    {
-        if (arguments.size() != text_.arguments.size())
-            refuse("it takes " + std::to_string(text_.arguments.size() - 1) + " arguments, not " +
-                   std::to_string(arguments.size() - 1));
-        for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
-        {
-            const auto& declared = text_.arguments[i];
-            arguments[i] = arguments[i].as(spelling(declared.type));
-            if (arguments[i].is_memory() != (declared.kind != argument_kind::scalar) ||
-                arguments[i].type() != spelling(declared.type))
-                refuse(declared.name + " is of another type: " + std::string(spelling(declared.type)));
-        }
-        arguments.back() = impl::count_of(*state_, text_.name, r);
-        impl::require_distinct(*state_, text_, arguments);
-        impl::require_range(*state_, text_, r, arguments);
-        return kernel_(impl::items_for(text_.form, r), std::span<const impl::argument>(arguments));
-    }
+    event launch(range r, std::span<impl::argument> arguments) const;
 
     [[noreturn]] void refuse(const std::string& why) const { throw parameter_error("kernel " + text_.name, why); }
 
-    std::size_t position(const char* name, std::size_t guess) const
-    {
-        const std::size_t n = text_.arguments.size() - 1;
-        for (std::size_t k = 0; k < n; ++k, ++guess)
-        {
-            if (guess >= n) guess = 0;
-            if (text_.arguments[guess].name == name) return guess;
-        }
-        refuse(std::string("it has no argument ") + name);
-    }
+    std::size_t position(const char* name, std::size_t guess) const;
 
     std::shared_ptr<impl::queue_state> state_;
     kernel_text text_;
@@ -350,3 +252,7 @@ traced_kernel<Tags...> trace(queue& q, std::string name, F&& f)
 }
 
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/compute/record.ipp>
+#endif

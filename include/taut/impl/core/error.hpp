@@ -20,10 +20,7 @@ public:
 class parameter_error : public error
 {
 public:
-    parameter_error(std::string field, const std::string& remedy)
-        : error("parameter " + field + ": " + remedy), field_(std::move(field))
-    {
-    }
+    parameter_error(std::string field, const std::string& remedy);
 
     const std::string& field() const noexcept { return field_; }
 
@@ -39,3 +36,7 @@ public:
 };
 
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/core/error.ipp>
+#endif

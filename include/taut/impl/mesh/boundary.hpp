@@ -49,35 +49,7 @@ namespace taut
 /// Boundary loops as vertex cycles, each with the surface to its left, starting at its smallest vertex; in the order of
 /// those. Empty for a closed surface. Around a vertex where two parts of the surface touch, each part has its own loop.
 /// Throws mesh_error (non_manifold_facet, inconsistent_orientation) where left has no meaning.
-inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const impl::facet_table& f)
-{
-    if (!f.manifold())
-        throw mesh_error(
-            mesh_fault::non_manifold_facet, {f.crowds[0].begin(), f.crowds[0].end()},
-            "boundary_loops: an edge has three or more triangles; part them, `taut check` and validate() list all");
-    if (!f.oriented())
-        throw mesh_error(
-            mesh_fault::inconsistent_orientation, {f.clash[0][0] / 3, f.clash[0][1] / 3},
-            "boundary_loops: neighbours are oriented differently; turn one over, `taut check` and validate() list all");
-
-    std::vector<char> seen(f.twin.size(), 0);
-    std::vector<std::vector<idx>> loops;
-    for (std::size_t start = 0; start < f.twin.size(); ++start)
-    {
-        if (f.twin[start] != impl::facet_table::boundary || seen[start]) continue;
-        std::vector<idx> loop;
-        auto side = static_cast<idx>(start);
-        do {
-            seen[static_cast<std::size_t>(side)] = 1;
-            loop.push_back(impl::side_vertices(m, side)[0]);
-            side = impl::next_boundary_side(f, side);
-        } while (side != static_cast<idx>(start));
-        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-        loops.push_back(std::move(loop));
-    }
-    std::sort(loops.begin(), loops.end());
-    return loops;
-}
+std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const impl::facet_table& f);
 
 inline std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m)
 {
@@ -99,3 +71,7 @@ inline std::vector<char> boundary_flags(std::size_t vertices, std::span<const st
 }
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/boundary.ipp>
+#endif

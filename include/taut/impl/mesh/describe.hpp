@@ -14,29 +14,11 @@ namespace taut::impl
 {
 
 /// "1 triangle", "7 triangles"
-inline std::string counted(std::size_t n, const std::string& thing, const std::string& things)
-{
-    return std::to_string(n) + ' ' + (n == 1 ? thing : things);
-}
+std::string counted(std::size_t n, const std::string& thing, const std::string& things);
 
 /// "7 triangles (3, 14, 15, 92, 65, ...)" of n, whose first ids are known.
-inline std::string list_first_ids(const char* thing, const char* things, std::size_t n, const std::vector<idx>& ids,
-                                  std::size_t group = 1)
-{
-    constexpr std::size_t most = 5;
-    const std::size_t shown = std::min(ids.size() / group, most);
-    std::string s = counted(n, thing, things) + " (";
-    for (std::size_t g = 0; g < shown; ++g)
-    {
-        if (g > 0) s += ", ";
-        for (std::size_t k = 0; k < group; ++k)
-        {
-            if (k > 0) s += '-';
-            s += std::to_string(ids[g * group + k]);
-        }
-    }
-    return s + (n > shown ? ", ...)" : ")");
-}
+std::string list_first_ids(const char* thing, const char* things, std::size_t n, const std::vector<idx>& ids,
+                           std::size_t group = 1);
 
 /// The same of all that are in a list; ids in groups of `group` are written "3-14".
 inline std::string list_ids(const char* thing, const char* things, const std::vector<idx>& ids, std::size_t group = 1)
@@ -131,3 +113,7 @@ impl::mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<co
 }
 
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/describe.ipp>
+#endif

@@ -182,4 +182,12 @@ facet_table facets(const mesh<Element>& m)
     return f;
 }
 
+// Compiled once, with the bodies.
+extern template facet_table facets(const mesh<triangle>&);
+extern template facet_table facets(const mesh<tetrahedron>&);
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/facets.ipp>
+#endif

@@ -135,4 +135,12 @@ private:
     std::vector<cell> cells_;
 };
 
+// Compiled once, with the bodies.
+extern template class mesh<triangle>;
+extern template class mesh<tetrahedron>;
+
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/mesh.ipp>
+#endif

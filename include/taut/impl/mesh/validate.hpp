@@ -102,4 +102,14 @@ void validate(const mesh<Element>& m, const impl::mesh_requirements& need = {})
     validate(m, impl::facets(m), need);
 }
 
+// Compiled once, with the bodies.
+extern template std::vector<impl::mesh_finding> check(const mesh<triangle>&, const impl::facet_table&,
+                                                      const impl::mesh_requirements&);
+extern template std::vector<impl::mesh_finding> check(const mesh<tetrahedron>&, const impl::facet_table&,
+                                                      const impl::mesh_requirements&);
+
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/validate.ipp>
+#endif

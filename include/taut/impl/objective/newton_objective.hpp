@@ -215,4 +215,20 @@ private:
     bool exact_ = false;
 };
 
+// Those of surfaces are compiled once, with the bodies; volume_objective.hpp says so of volumes.
+extern template class traced_element<2>;
+extern template class fixed_terms<triangle>;
+extern template class spring_terms<triangle>;
+extern template struct element_kernels<triangle>;
+extern template struct element_hessian_kernel<triangle>;
+extern template struct relaxation_kernels<triangle>;
+extern template struct element_arrays<triangle>;
+extern template class map_objective<triangle>;
+extern template struct newton_kernels<triangle>;
+extern template class newton_objective<triangle>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/newton_objective.ipp>
+#endif

@@ -21,21 +21,7 @@ namespace taut::impl
 struct element_inputs
 {
     /// energy: determines the data of cells and the parameters.
-    element_inputs(recording& r, const real_types& types, const any_energy& energy)
-        : corners(r.in<idx>("corners")),
-          inverse(r.in<double>("inverse", types.vector)),
-          measure(r.in<double>("measure", types.vector)),
-          weight(r.in<double>("weight", types.vector)),
-          x(r.in<double>("x", types.position)),
-          cell_stride(r.scalar<idx>("cell_stride")),
-          vertex_stride(r.scalar<idx>("vertex_stride")),
-          attribute_count(static_cast<int>(energy.attributes().size()))
-    {
-        if (attribute_count > 0) attributes.emplace(r.in<double>("attributes", types.vector));
-        if (energy.directions()) frames.emplace(r.in<double>("frames", types.vector));
-        for (std::size_t k = 0; k < energy.parameters().size(); ++k)
-            parameters.push_back(r.scalar<double>("parameter" + std::to_string(k), types.vector));
-    }
+    element_inputs(recording& r, const real_types& types, const any_energy& energy);
 
     in_array<idx> corners;
     in_array<double> inverse, measure, weight, x;
@@ -177,3 +163,7 @@ private:
 };
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/traced_element.ipp>
+#endif

@@ -20,12 +20,7 @@ struct multigrid_params
     std::size_t dense_enough = 180; ///< unknowns of a level that makes coarser ones superfluous; at most dense_limit
 
     /// Throws parameter_error with the name of a field outside its domain.
-    void validate() const
-    {
-        if (!(lambda_max > 0)) throw parameter_error("lambda_max", "must be positive");
-        if (!(lambda_ratio > 1)) throw parameter_error("lambda_ratio", "must be more than 1");
-        if (dense_enough > dense_limit) throw parameter_error("dense_enough", "must be at most dense_limit");
-    }
+    void validate() const;
 };
 
 /// All of a multigrid that can be made on the host, from the pattern of its finest matrix and the interpolations.
@@ -34,23 +29,7 @@ struct multigrid_plan
     /// transfer_weights[l]: from level l + 1 to level l, as far as levels are needed; none leaves the smoother and, if
     /// it is small, the dense inverse. The arrays that they refer to may go afterwards. Throws parameter_error.
     multigrid_plan(block_pattern finest, int block_size, std::span<const transfer_weights> interpolations,
-                   lane_form lanes, const multigrid_params& how = {})
-        : D(block_size), form(lanes), params(how), active(finest.rows())
-    {
-        params.validate();
-        std::iota(active.begin(), active.end(), 0);
-        patterns.push_back(std::move(finest));
-        for (const auto& P : interpolations)
-        {
-            if (active.size() * static_cast<std::size_t>(D) <= params.dense_enough) break;
-            const transposed_weights t(P);
-            patterns.push_back(pattern_of_product(patterns.back(), P, t));
-            transfers.emplace_back(patterns[patterns.size() - 2], P, t, patterns.back(), form);
-            active.clear();
-            for (std::size_t J = 0; J < P.coarse; ++J)
-                if (!t[J].empty()) active.push_back(static_cast<idx>(J));
-        }
-    }
+                   lane_form lanes, const multigrid_params& how = {});
 
     int D;
     lane_form form;
@@ -61,3 +40,7 @@ struct multigrid_plan
 };
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/sparse/multigrid_plan.ipp>
+#endif

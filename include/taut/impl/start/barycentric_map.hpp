@@ -141,4 +141,13 @@ start_map barycentric_map(const mesh<triangle>& m, const barycentric_params& par
     return barycentric_map(m, f, params, std::move(solver));
 }
 
+// Compiled once, with the bodies.
+extern template start_map barycentric_map<elimination_solver>(const mesh<triangle>&, const facet_table&,
+                                                              const barycentric_params&, elimination_solver,
+                                                              const std::function<bool()>&);
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/start/barycentric_map.ipp>
+#endif

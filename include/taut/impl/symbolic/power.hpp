@@ -10,60 +10,20 @@ namespace taut::impl
 {
 
 /// x to a positive integer power by repeated squaring: about log2(n) products, each rounded once.
-inline node_id integer_power(tape& t, node_id x, unsigned n)
-{
-    const scalar_type type = t[x].type;
-    node_id result = no_node;
-    for (node_id square = x;; square = build(t, opcode::mul, type, square, square))
-    {
-        if (n & 1u) result = result == no_node ? square : build(t, opcode::mul, type, result, square);
-        if ((n >>= 1) == 0) return result;
-    }
-}
+node_id integer_power(tape& t, node_id x, unsigned n);
 
 /// x^(n / parts) for parts = 1, 2 or 3 and n > 0: powers of x times powers of a root, NaN for negative x unless parts
 /// is 1, as pow is.
-inline node_id rational_power(tape& t, node_id x, unsigned n, unsigned parts)
-{
-    const scalar_type type = t[x].type;
-    node_id result = no_node;
-    if (n >= parts) result = integer_power(t, x, n / parts);
-    if (n % parts != 0)
-    {
-        const node_id root = build(t, parts == 2 ? opcode::sqrt : opcode::root3, type, x);
-        const node_id part = integer_power(t, root, n % parts);
-        result = result == no_node ? part : build(t, opcode::mul, type, result, part);
-    }
-    return result;
-}
+node_id rational_power(tape& t, node_id x, unsigned n, unsigned parts);
 
 /// pow(x, e). Integers, halves and thirds up to 64 become products, square or cube roots and one reciprocal: exp and
 /// log are what a device does slowest, and they stop PoCL from vectorising the kernel. Up to 64, for the error of the
 /// products grows with the exponent. A third is what T(k / 3.0) rounds to; the cube root then has the exponent that
 /// was meant.
-inline node_id build_power(tape& t, node_id x, node_id e)
-{
-    const scalar_type type = t[x].type;
-    if (is_constant(t, x) || !is_constant(t, e)) return build(t, opcode::pow, type, x, e);
-
-    const double exponent = type == scalar_type::f32 ? from_bits<float>(t[e].payload) : from_bits<double>(t[e].payload);
-    const double magnitude = std::abs(exponent);
-    if (magnitude == 0) return constant_of(t, type, 1.0); // also for NaN and 0, as std::pow
-    if (!(magnitude <= 64)) return build(t, opcode::pow, type, x, e);
-
-    const auto is_ratio = [&](double n, double parts)
-    {
-        const double ratio = n / parts;
-        return magnitude == (type == scalar_type::f32 ? in_single(ratio) : ratio);
-    };
-    for (const unsigned parts : {1u, 2u, 3u})
-    {
-        const double n = std::round(magnitude * parts);
-        if (n == 0 || !is_ratio(n, parts)) continue;
-        const node_id power = rational_power(t, x, static_cast<unsigned>(n), parts);
-        return exponent > 0 ? power : build(t, opcode::div, type, constant_of(t, type, 1.0), power);
-    }
-    return build(t, opcode::pow, type, x, e);
-}
+node_id build_power(tape& t, node_id x, node_id e);
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/symbolic/power.ipp>
+#endif

@@ -32,7 +32,7 @@ class recording
 {
 public:
     /// real: the type of constants of sym<double>, for a kernel whose formulas are in float.
-    explicit recording(scalar_type real = scalar_type::f64) : scope_(tape_) { tape_.constants_in(real); }
+    explicit recording(scalar_type real = scalar_type::f64);
 
     /// Declares a pointer argument. A name is a C identifier, distinct from the others and not of the form t0, i0 or
     /// taut_x; an empty one becomes a0, a1, ... by position. Throws parameter_error for any other.
@@ -65,48 +65,20 @@ public:
     }
 
     /// The number of the work-item along dimension 0, 1 or 2 of the range.
-    sym<idx> global_id(unsigned dimension = 0)
-    {
-        if (dimension > 2) throw parameter_error("dimension", "a range has the dimensions 0, 1 and 2");
-        return sym<idx>::of(
-            tape_.intern({.op = impl::opcode::global_id, .type = scalar_type::i32, .payload = dimension}));
-    }
+    sym<idx> global_id(unsigned dimension = 0);
 
     const std::vector<impl::kernel_argument>& arguments() const noexcept { return arguments_; }
     const tape& recorded() const noexcept { return tape_; }
 
     /// The kernel as recorded so far. Its form depends on the device; see kernel_form.
     impl::kernel_text finish(std::string name, impl::kernel_form form = impl::kernel_form::item,
-                             impl::kernel_use use = impl::kernel_use::often) const
-    {
-        require_identifier(name);
-        return impl::emit(tape_, std::move(name), arguments_, form, use);
-    }
+                             impl::kernel_use use = impl::kernel_use::often) const;
 
 private:
-    std::uint32_t declare(std::string_view name, impl::argument_kind kind, scalar_type type)
-    {
-        std::string text = name.empty() ? impl::numbered("a", arguments_.size()) : std::string(name);
-        require_identifier(text);
-        if (std::any_of(arguments_.begin(), arguments_.end(), [&](const auto& a) { return a.name == text; }))
-            throw parameter_error(text, "a kernel has two arguments of this name");
-        arguments_.push_back({std::move(text), kind, type});
-        return static_cast<std::uint32_t>(arguments_.size() - 1);
-    }
+    std::uint32_t declare(std::string_view name, impl::argument_kind kind, scalar_type type);
 
     /// Names go into the text as they are; what the emitter makes up itself must stay free.
-    static void require_identifier(const std::string& name)
-    {
-        const auto is_digit = [](unsigned char c) { return std::isdigit(c) != 0; };
-        const auto is_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; };
-        if (name.empty() || is_digit(static_cast<unsigned char>(name[0])) ||
-            !std::all_of(name.begin(), name.end(), is_word))
-            throw parameter_error(name, "not a C identifier");
-        if (name.starts_with("taut_")) throw parameter_error(name, "names with taut_ belong to the library");
-        if (name.size() > 1 && (name[0] == 't' || name[0] == 'i') &&
-            std::all_of(name.begin() + 1, name.end(), is_digit))
-            throw parameter_error(name, "t or i and a number names a value of the kernel");
-    }
+    static void require_identifier(const std::string& name);
 
     tape tape_;
     tape_scope scope_; // after the tape, as it must go first
@@ -114,3 +86,7 @@ private:
 };
 
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/symbolic/recording.ipp>
+#endif

@@ -32,28 +32,7 @@ class coarse_stage final : public untangle_stage<triangle>
 public:
     std::string_view name() const override { return "coarse"; }
 
-    bool run(untangle_state<triangle>& state, int) override
-    {
-        const auto& problem = state.problem();
-        if (problem.rest.points().size() <= fewest) return false;
-        std::optional<hierarchy<triangle>> h;
-        try
-        {
-            h = levels_of(problem, [&state] { return state.proceed(0); });
-        }
-        catch (const mesh_error&) // no surface that can be thinned
-        {
-            return false;
-        }
-        std::size_t l = 1;
-        while (l + 1 < h->levels.size() && h->levels[l].vertices.size() > fewest) ++l;
-        for (int steps = 45; l > 0 && l < h->levels.size() && h->levels[l].vertices.size() <= most; --l, steps *= 2)
-        {
-            if (auto uv = untangled(state, *h, l, steps)) raise(state, *h, l, std::move(*uv));
-            if (state.injective() || state.stopped()) break;
-        }
-        return false;
-    }
+    bool run(untangle_state<triangle>& state, int) override;
 
 private:
     static constexpr std::size_t fewest = 1000, most = 6000; // vertices of a coarse level
@@ -67,18 +46,7 @@ private:
     }
 
     /// Stages for a level: where a boundary is free, those that create no branch points.
-    static untangle_stages<triangle> stages(bool outline_pinned)
-    {
-        untangle_stages<triangle> chosen;
-        if (!outline_pinned)
-        {
-            chosen.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"}));
-            return chosen;
-        }
-        chosen.push_back(std::make_unique<harmonic_stage<triangle>>());
-        chosen.push_back(std::make_unique<newton_stage<triangle>>());
-        return chosen;
-    }
+    static untangle_stages<triangle> stages(bool outline_pinned);
 
     /// Computes a map of a level with few defects; empty if there is none.
     std::optional<std::vector<vec2>> untangled(untangle_state<triangle>& state, const hierarchy<triangle>& h,
@@ -148,3 +116,7 @@ private:
 };
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/untangle/coarse_stage.ipp>
+#endif

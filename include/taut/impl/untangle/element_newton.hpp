@@ -15,12 +15,9 @@ namespace taut::impl
 class triangle_newton final : public regularized_newton<triangle>
 {
 public:
-    explicit triangle_newton(const regularized_problem<triangle>& problem)
-        : regularized_newton(problem), newton_(cells_, shapes_, problem.held)
-    {
-    }
+    explicit triangle_newton(const regularized_problem<triangle>& problem);
 
-    double value(const map& x) override { return newton_.value(x, energy(), springs); }
+    double value(const map& x) override;
 
     double step(map& x, double here) override
     {
@@ -48,3 +45,7 @@ inline std::unique_ptr<regularized_newton<triangle>> direct_newton(const regular
 }
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/untangle/element_newton.ipp>
+#endif

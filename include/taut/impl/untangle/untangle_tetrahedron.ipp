@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/untangle/untangle_declared.hpp>
 #include <taut/impl/untangle/untangle_on_device.hpp>
 

@@ -7,6 +7,7 @@
 
 #include <taut/impl/map/session/session_run.hpp>
 #include <taut/impl/map/session/shape_setup.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/untangle/untangle.hpp>
 
 namespace taut

@@ -19,103 +19,15 @@ namespace taut::impl
 {
 
 /// Free vertices without a place: some of their triangles with two pinned corners contradict each other.
-inline void judge_stars(const untangle_problem<triangle>& p, infeasibility& found)
-{
-    const csr around = vertex_corners(p.rest);
-    std::vector<idx> ids;
-    std::vector<half_plane> planes;
-    std::vector<idx> cells;
-    for (idx v = 0; v < p.rest.vertex_count(); ++v)
-    {
-        if (p.held.all(static_cast<std::size_t>(v))) continue;
-        planes.clear();
-        cells.clear();
-        for (const idx corner : around.row(v))
-        {
-            const auto [a, b] = side_vertices(p.rest, corner); // the edge opposite this corner
-            if (!p.held.all(static_cast<std::size_t>(a)) || !p.held.all(static_cast<std::size_t>(b))) continue;
-            planes.push_back({p.initial[static_cast<std::size_t>(a)], p.initial[static_cast<std::size_t>(b)]});
-            cells.push_back(corner / 3);
-        }
-        if (const auto three = find_contradiction(planes))
-        {
-            ids.push_back(v);
-            for (const std::size_t i : *three) ids.push_back(cells[i]);
-        }
-    }
-    found.prove(infeasibility_kind::empty_star, std::move(ids),
-                [](const auto& all)
-                {
-                    std::vector<idx> vertices;
-                    for (std::size_t k = 0; k < all.size(); k += 4) vertices.push_back(all[k]);
-                    return list_ids("free vertex", "free vertices", vertices) +
-                           " whose pinned neighbours leave no place where all their triangles are positive; move or "
-                           "free a neighbour of each";
-                });
-}
+void judge_stars(const untangle_problem<triangle>& p, infeasibility& found);
 
 /// Inner vertices that are pinned with all their neighbours so that these run around them more than once.
-inline void judge_winding(const untangle_problem<triangle>& p, infeasibility& found)
-{
-    auto ids = branch_points(p.rest.cells(), p.initial);
-    if (ids.empty()) return;
-    std::vector<char> movable(p.held.size(), 0); // the vertex, or one beside it
-    for (const auto& t : p.rest.cells())
-        if (!std::all_of(t.begin(), t.end(), [&](idx v) { return p.held.all(static_cast<std::size_t>(v)); }))
-            for (const idx v : t) movable[static_cast<std::size_t>(v)] = 1;
-    std::erase_if(ids, [&](idx v) { return movable[static_cast<std::size_t>(v)] != 0; });
-    found.prove(infeasibility_kind::wound_star, std::move(ids),
-                [](const auto& all)
-                {
-                    return list_ids("pinned vertex", "pinned vertices", all) +
-                           " whose pinned neighbours run around it more than once; move or free them";
-                });
-}
+void judge_winding(const untangle_problem<triangle>& p, infeasibility& found);
 
 /// Pinned vertices outside of their pinned boundary, and edges between pinned vertices that meet. Where the boundary is
 /// pinned and does not meet itself, a map of positive triangles is one-to-one, so that such edges are a proof;
 /// elsewhere they only say that the map covers parts twice.
-inline void judge_places(const untangle_problem<triangle>& p, const facet_table& f, infeasibility& found)
-{
-    const auto boundaries = find_pinned_boundaries(p, f);
-    found.prove(infeasibility_kind::outside_boundary, vertices_outside(p, boundaries),
-                [](const auto& ids) {
-                    return list_ids("pinned vertex", "pinned vertices", ids) +
-                           " outside of the pinned boundary; move or free each";
-                });
-
-    std::vector<std::array<idx, 2>> edges;
-    for (idx side = 0; side < 3 * p.rest.cell_count(); ++side)
-    {
-        const auto [a, b] = side_vertices(p.rest, side);
-        if (p.held.all(static_cast<std::size_t>(a)) && p.held.all(static_cast<std::size_t>(b)))
-            edges.push_back({std::min(a, b), std::max(a, b)});
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    constexpr std::size_t most = 16, tests = 30'000'000; // a few are told; all pairs of many edges would take too long
-    const bool any_simple =
-        std::any_of(boundaries.components.begin(), boundaries.components.end(), [](const auto& c) { return c.simple; });
-    std::vector<idx> proofs, warnings;
-    for_each_meeting(
-        edges, p.initial,
-        [&](std::size_t i, std::size_t j)
-        {
-            auto& ids = boundaries.exclusive(edges[i], edges[j]) ? proofs : warnings;
-            if (ids.size() < 4 * most)
-                for (const auto& e : {edges[i], edges[j]}) ids.insert(ids.end(), e.begin(), e.end());
-            return (any_simple ? proofs : warnings).size() < 4 * most;
-        },
-        tests);
-    const auto pairs = [](const std::vector<idx>& ids)
-    { return list_ids("pair", "pairs", ids, 4) + " of edges between pinned vertices that meet"; };
-    found.prove(infeasibility_kind::crossing_edges, std::move(proofs),
-                [&](const auto& ids)
-                { return pairs(ids) + " within a pinned boundary; move or free a vertex of each"; });
-    if (warnings.empty()) return;
-    std::string message = pairs(warnings) + ": triangles may all be positive, but the map covers parts twice";
-    found.warnings.push_back({infeasibility_kind::not_globally_injective, std::move(warnings), std::move(message)});
-}
+void judge_places(const untangle_problem<triangle>& p, const facet_table& f, infeasibility& found);
 
 } // namespace taut::impl
 
@@ -156,3 +68,7 @@ impl::infeasibility find_infeasibility(const untangle_problem<Element>& problem)
 }
 
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/untangle/proofs/infeasible.ipp>
+#endif

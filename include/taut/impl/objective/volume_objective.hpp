@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The objectives of volumes, which programs of surfaces need not compile.
+#include <taut/impl/mesh/tetrahedron.hpp>
+#include <taut/impl/objective/newton_objective.hpp>
+
+namespace taut::impl
+{
+
+// Compiled once, with the bodies.
+extern template class traced_element<3>;
+extern template class fixed_terms<tetrahedron>;
+extern template class spring_terms<tetrahedron>;
+extern template struct element_kernels<tetrahedron>;
+extern template struct element_hessian_kernel<tetrahedron>;
+extern template struct relaxation_kernels<tetrahedron>;
+extern template struct element_arrays<tetrahedron>;
+extern template class map_objective<tetrahedron>;
+extern template struct newton_kernels<tetrahedron>;
+extern template class newton_objective<tetrahedron>;
+
+} // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/volume_objective.ipp>
+#endif

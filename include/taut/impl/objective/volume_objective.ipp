@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/objective/volume_objective.hpp>
+
+namespace taut::impl
+{
+
+template class traced_element<3>;
+template class fixed_terms<tetrahedron>;
+template class spring_terms<tetrahedron>;
+template struct element_kernels<tetrahedron>;
+template struct element_hessian_kernel<tetrahedron>;
+template struct relaxation_kernels<tetrahedron>;
+template struct element_arrays<tetrahedron>;
+template class map_objective<tetrahedron>;
+template struct newton_kernels<tetrahedron>;
+template class newton_objective<tetrahedron>;
+
+} // namespace taut::impl

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#include <taut/impl/compute/buffer.ipp>
+#include <taut/impl/compute/choose_device.ipp>
+#include <taut/impl/compute/device.ipp>
+#include <taut/impl/compute/errors.ipp>
+#include <taut/impl/compute/gather.ipp>
+#include <taut/impl/compute/kernel.ipp>
+#include <taut/impl/compute/program/argument.ipp>
+#include <taut/impl/compute/program/build_excerpt.ipp>
+#include <taut/impl/compute/program/joined_source.ipp>
+#include <taut/impl/compute/program/signature.ipp>
+#include <taut/impl/compute/program_cache.ipp>
+#include <taut/impl/compute/queue.ipp>
+#include <taut/impl/compute/queue_state.ipp>
+#include <taut/impl/compute/real_buffer.ipp>
+#include <taut/impl/compute/record.ipp>
+#include <taut/impl/compute/reductions.ipp>
+#include <taut/impl/compute/vector_space.ipp>
+#include <taut/impl/symbolic/apply.ipp>
+#include <taut/impl/symbolic/build.ipp>
+#include <taut/impl/symbolic/cons_table.ipp>
+#include <taut/impl/symbolic/emit.ipp>
+#include <taut/impl/symbolic/power.ipp>
+#include <taut/impl/symbolic/recording.ipp>
+#include <taut/impl/symbolic/reverse.ipp>
+#include <taut/impl/symbolic/statement_writer.ipp>
