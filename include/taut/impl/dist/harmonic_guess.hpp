@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/fixed_sum.hpp>
 #include <taut/impl/dist/free_rows.hpp>
 #include <taut/impl/dist/pinned_bodies.hpp>
 #include <taut/impl/map/shape_path.hpp>
+#include <taut/impl/processes/fixed_sum.hpp>
 
 namespace taut::dist::impl
 {

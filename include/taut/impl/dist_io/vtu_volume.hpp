@@ -19,8 +19,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/ranged_volume.hpp>
-#include <taut/impl/dist/file/su2_lines.hpp>
+#include <taut/impl/dist_io/ranged_volume.hpp>
+#include <taut/impl/dist_io/su2_lines.hpp>
 #include <taut/impl/io/file/byte_order.hpp>
 #include <taut/impl/io/volume/xml.hpp>
 

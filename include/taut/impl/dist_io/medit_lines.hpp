@@ -11,7 +11,7 @@
 #include <string_view>
 #include <utility>
 
-#include <taut/impl/dist/file/line_layout.hpp>
+#include <taut/impl/dist_io/line_layout.hpp>
 #include <taut/impl/io/file/scanner.hpp>
 
 namespace taut::dist::impl

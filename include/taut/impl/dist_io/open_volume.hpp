@@ -6,14 +6,14 @@
 #include <string>
 #include <utility>
 
-#include <taut/impl/dist/file/foam_volume.hpp>
-#include <taut/impl/dist/file/gmsh_lines.hpp>
-#include <taut/impl/dist/file/medit_lines.hpp>
-#include <taut/impl/dist/file/pvtu_volume.hpp>
-#include <taut/impl/dist/file/su2_lines.hpp>
-#include <taut/impl/dist/file/tetgen_lines.hpp>
-#include <taut/impl/dist/file/text_volume.hpp>
-#include <taut/impl/dist/file/vtu_volume.hpp>
+#include <taut/impl/dist_io/foam_volume.hpp>
+#include <taut/impl/dist_io/gmsh_lines.hpp>
+#include <taut/impl/dist_io/medit_lines.hpp>
+#include <taut/impl/dist_io/pvtu_volume.hpp>
+#include <taut/impl/dist_io/su2_lines.hpp>
+#include <taut/impl/dist_io/tetgen_lines.hpp>
+#include <taut/impl/dist_io/text_volume.hpp>
+#include <taut/impl/dist_io/vtu_volume.hpp>
 #include <taut/impl/io/volume/formats.hpp>
 
 namespace taut::dist::impl

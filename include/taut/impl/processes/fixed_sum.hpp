@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/dist/communicator.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 namespace taut::dist::impl
 {

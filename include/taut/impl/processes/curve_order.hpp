@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <taut/impl/core/types.hpp>
-#include <taut/impl/dist/communicator.hpp>
-#include <taut/impl/dist/homes.hpp>
 #include <taut/impl/mesh/order.hpp>
+#include <taut/impl/processes/communicator.hpp>
+#include <taut/impl/processes/homes.hpp>
 
 namespace taut::dist::impl
 {

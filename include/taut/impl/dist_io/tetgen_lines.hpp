@@ -13,7 +13,7 @@
 #include <system_error>
 #include <utility>
 
-#include <taut/impl/dist/file/line_layout.hpp>
+#include <taut/impl/dist_io/line_layout.hpp>
 
 namespace taut::dist::impl
 {

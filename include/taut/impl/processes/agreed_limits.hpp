@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <taut/impl/core/observer.hpp>
-#include <taut/impl/dist/communicator.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 namespace taut::dist::impl
 {

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/line_layout.hpp>
+#include <taut/impl/dist_io/line_layout.hpp>
 
 namespace taut::dist::impl
 {

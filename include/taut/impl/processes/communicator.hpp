@@ -22,7 +22,7 @@
 
 #include <mpi.h>
 
-#include <taut/impl/dist/remote_error.hpp>
+#include <taut/impl/processes/remote_error.hpp>
 
 namespace taut::dist::impl
 {

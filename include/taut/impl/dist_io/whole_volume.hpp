@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/deal.hpp>
-#include <taut/impl/dist/file/ranged_volume.hpp>
+#include <taut/impl/dist_io/deal.hpp>
+#include <taut/impl/dist_io/ranged_volume.hpp>
 #include <taut/impl/io/read_volume.hpp>
 #include <taut/impl/io/write_volume.hpp>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include <taut/impl/dist/communicator.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 namespace taut::dist::impl
 {

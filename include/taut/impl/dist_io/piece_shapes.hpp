@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/fixed_sum.hpp>
-#include <taut/impl/dist/mesh_piece.hpp>
 #include <taut/impl/measure/shape_quality.hpp>
+#include <taut/impl/processes/fixed_sum.hpp>
+#include <taut/impl/processes/mesh_piece.hpp>
 
 namespace taut::dist::impl
 {

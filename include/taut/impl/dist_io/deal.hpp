@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <taut/impl/dist/communicator.hpp>
-#include <taut/impl/dist/mesh_piece.hpp>
 #include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/processes/communicator.hpp>
+#include <taut/impl/processes/mesh_piece.hpp>
 
 namespace taut::dist::impl
 {

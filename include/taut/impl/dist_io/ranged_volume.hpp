@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/shared_file.hpp>
-#include <taut/impl/dist/mesh_piece.hpp>
+#include <taut/impl/dist_io/shared_file.hpp>
 #include <taut/impl/exact/cell_validity.hpp>
 #include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/processes/mesh_piece.hpp>
 
 namespace taut::dist::impl
 {

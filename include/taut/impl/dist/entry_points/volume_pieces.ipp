@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/impl/dist/file/volume_pieces.hpp>
+#include <taut/impl/dist/volume_pieces.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/open_volume.hpp>
-#include <taut/impl/dist/file/piece_shapes.hpp>
-#include <taut/impl/dist/file/whole_volume.hpp>
+#include <taut/impl/dist_io/open_volume.hpp>
+#include <taut/impl/dist_io/piece_shapes.hpp>
+#include <taut/impl/dist_io/whole_volume.hpp>
 
 namespace taut::dist
 {

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/curve_order.hpp>
-#include <taut/impl/dist/mesh_piece.hpp>
-#include <taut/impl/dist/vertex_exchange.hpp>
 #include <taut/impl/mesh/describe.hpp>
+#include <taut/impl/processes/curve_order.hpp>
+#include <taut/impl/processes/mesh_piece.hpp>
+#include <taut/impl/processes/vertex_exchange.hpp>
 
 namespace taut::dist::impl
 {

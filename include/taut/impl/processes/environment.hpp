@@ -6,8 +6,8 @@
 #include <petscksp.h>
 #include <petscsf.h>
 
-#include <taut/impl/dist/communicator.hpp>
-#include <taut/impl/dist/remote_error.hpp>
+#include <taut/impl/processes/communicator.hpp>
+#include <taut/impl/processes/remote_error.hpp>
 
 namespace taut::dist::impl
 {

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <system_error>
 
-#include <taut/impl/dist/file/unsuited.hpp>
+#include <taut/impl/dist_io/unsuited.hpp>
 
 namespace taut::dist::impl
 {

@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <taut/impl/dist/file/unsuited.hpp>
+#include <taut/impl/dist_io/unsuited.hpp>
 #include <taut/impl/io/atomic_file.hpp>
 
 namespace taut::dist::impl

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/shared_file.hpp>
-#include <taut/impl/dist/file/tokens.hpp>
+#include <taut/impl/dist_io/shared_file.hpp>
+#include <taut/impl/dist_io/tokens.hpp>
 
 namespace taut::dist::impl
 {

@@ -15,10 +15,10 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/ranged_volume.hpp>
-#include <taut/impl/dist/homes.hpp>
+#include <taut/impl/dist_io/ranged_volume.hpp>
 #include <taut/impl/io/read_file.hpp>
 #include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/processes/homes.hpp>
 
 namespace taut::dist::impl
 {

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <taut/impl/dist/environment.hpp>
+#include <taut/impl/processes/environment.hpp>
 
 namespace taut::dist::impl
 {

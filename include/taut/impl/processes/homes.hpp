@@ -9,8 +9,8 @@
 #include <vector>
 
 #include <taut/impl/core/types.hpp>
-#include <taut/impl/dist/communicator.hpp>
 #include <taut/impl/mesh/mesh_error.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 namespace taut::dist::impl
 {

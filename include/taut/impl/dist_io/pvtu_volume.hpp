@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/pieces_volume.hpp>
+#include <taut/impl/dist_io/pieces_volume.hpp>
 #include <taut/impl/io/read_volume.hpp>
 #include <taut/impl/io/volume/xml.hpp>
 

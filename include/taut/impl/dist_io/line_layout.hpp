@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/text_ranges.hpp>
+#include <taut/impl/dist_io/text_ranges.hpp>
 #include <taut/impl/io/volume_file.hpp>
 
 namespace taut::dist::impl

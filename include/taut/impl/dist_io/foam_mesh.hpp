@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/foam_text.hpp>
+#include <taut/impl/dist_io/foam_text.hpp>
 #include <taut/impl/io/volume_file.hpp>
 
 namespace taut::dist::impl

@@ -8,8 +8,8 @@
 #include <string>
 #include <system_error>
 
-#include <taut/impl/dist/file/foam_mesh.hpp>
-#include <taut/impl/dist/file/pieces_volume.hpp>
+#include <taut/impl/dist_io/foam_mesh.hpp>
+#include <taut/impl/dist_io/pieces_volume.hpp>
 
 namespace taut::dist::impl
 {

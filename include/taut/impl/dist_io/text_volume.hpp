@@ -17,9 +17,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/file/line_layout.hpp>
-#include <taut/impl/dist/file/ranged_volume.hpp>
-#include <taut/impl/dist/homes.hpp>
+#include <taut/impl/dist_io/line_layout.hpp>
+#include <taut/impl/dist_io/ranged_volume.hpp>
+#include <taut/impl/processes/homes.hpp>
 
 namespace taut::dist::impl
 {
