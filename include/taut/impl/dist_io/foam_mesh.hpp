@@ -34,9 +34,10 @@ public:
         read_sides();
         make_cells();
         read_patches();
+        for (const auto kind : {zone::cells, zone::faces, zone::points}) read_zones(kind);
     }
 
-    /// Points, cells, and patches as groups; `bytes` are those of `points`.
+    /// Points, cells, and patches and zones as groups; `bytes` are those of `points`.
     io::volume_file take() { return std::move(file_); }
 
     /// Numbers of the points in the mesh before it was decomposed; empty: they are not there.
@@ -244,6 +245,7 @@ private:
         foam_text text(folder_ / "boundary");
         text.count(1);
         text.expect('(');
+        std::int64_t listed = 0; // patches have no faces in common
         while (!text.take(')'))
         {
             const std::string name = text.word();
@@ -259,7 +261,7 @@ private:
                 if (depth == 1 && key == "startFace") first = text.number<std::int64_t>("the number of a face");
             }
             const auto n = static_cast<std::int64_t>(faces());
-            if (count < 0 || count > n || (count > 0 && (first < 0 || first > n - count)))
+            if (count < 0 || count > n || (count > 0 && (first < 0 || first > n - count)) || (listed += count) > n)
                 text.fail("patch " + name + " has faces that are not there; save the mesh again");
             if (type.starts_with("processor")) continue;
             std::set<idx> vertices;
@@ -267,6 +269,66 @@ private:
                 for (const std::int64_t v : face(f)) vertices.insert(static_cast<idx>(v));
             file_.groups.push_back({name, 2, {vertices.begin(), vertices.end()}});
         }
+    }
+
+    enum class zone
+    {
+        cells,
+        faces,
+        points
+    };
+
+    /// Zones are groups of the points of their items: cellZone:NAME, faceZone:NAME, pointZone:NAME.
+    void read_zones(zone kind)
+    {
+        static constexpr std::array<const char*, 3> items = {"cell", "face", "point"};
+        const std::string item = items[static_cast<std::size_t>(kind)];
+        const auto path = folder_ / (item + "Zones");
+        std::error_code unknown;
+        if (!std::filesystem::exists(path, unknown) && !std::filesystem::exists(path.string() + ".gz", unknown)) return;
+        foam_text text(path);
+        text.count(1);
+        text.expect('(');
+        while (!text.take(')'))
+        {
+            const std::string name = item + "Zone:" + text.word();
+            std::vector<std::int64_t> labels;
+            text.expect('{');
+            while (!text.take('}'))
+            {
+                const std::string key = text.word();
+                if (key == item + "Labels")
+                    labels = text.list_of_labels();
+                else if (key == "flipMap")
+                    text.skip_flags();
+                else
+                    while (!text.take(';')) text.word();
+            }
+            file_.groups.push_back({name,
+                                    kind == zone::cells   ? 3
+                                    : kind == zone::faces ? 2
+                                                          : 0,
+                                    points_of(kind, labels, text)});
+        }
+    }
+
+    std::vector<idx> points_of(zone kind, const std::vector<std::int64_t>& labels, const foam_text& text) const
+    {
+        const std::size_t n = kind == zone::cells ? sides_.size() : kind == zone::faces ? faces() : file_.points.size();
+        std::set<idx> points;
+        for (const std::int64_t item : std::set<std::int64_t>(labels.begin(), labels.end()))
+        {
+            if (item < 0 || static_cast<std::size_t>(item) >= n)
+                text.fail("a zone names item " + std::to_string(item) + " of " + std::to_string(n) +
+                          "; save the mesh again");
+            if (kind == zone::points) points.insert(static_cast<idx>(item));
+            if (kind == zone::faces)
+                for (const std::int64_t v : face(item)) points.insert(static_cast<idx>(v));
+            if (kind == zone::cells)
+                for (const side& s : sides_[static_cast<std::size_t>(item)])
+                    for (const std::int64_t v : face(s.face)) points.insert(static_cast<idx>(v));
+        }
+        return {points.begin(), points.end()};
     }
 
     std::filesystem::path folder_;

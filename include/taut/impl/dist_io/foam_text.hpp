@@ -32,7 +32,11 @@ public:
         if (!std::filesystem::exists(path, unknown) && std::filesystem::exists(packed, unknown))
             throw io::io_error(packed.string(), "is compressed; unpack it by gunzip");
         bytes_ = io::impl::read_file(path);
+        repeated_ = bytes_.size() * 64 + (std::size_t{1} << 16U);
         read_head();
+        if (class_ == "decomposedBlockData")
+            fail("holds all pieces in one (collated), which is not read; decompose the mesh with -fileHandler "
+                 "uncollated");
     }
 
     const std::string& path() const { return path_; }
@@ -122,10 +126,8 @@ public:
     std::size_t count(std::size_t each)
     {
         const auto n = number<std::int64_t>("the length of a list");
-        const bool uniform = !binary_ && at('{');
-        if (n < 0 || (!uniform && static_cast<std::size_t>(n) > (bytes_.size() - at_) / each + 1))
+        if (n < 0 || static_cast<std::size_t>(n) > (bytes_.size() - at_) / each + 1)
             fail(std::to_string(n) + " items, more than the rest of the file can hold; get it whole");
-        if (n > std::int64_t{1} << 40U) fail("a list is too long");
         return static_cast<std::size_t>(n);
     }
 
@@ -145,11 +147,25 @@ public:
         return begin;
     }
 
-    /// A list of integers.
+    /// A list of integers. Those of one value, as 5{0}, may have so many items in a file as its bytes warrant.
     std::vector<std::int64_t> labels()
     {
-        const std::size_t n = count(binary_ ? label_ : 1);
         std::vector<std::int64_t> all;
+        const std::size_t begin = at_;
+        if (!binary_)
+        {
+            const auto n = number<std::int64_t>("the length of a list");
+            if (take('{'))
+            {
+                if (n < 0 || static_cast<std::size_t>(n) > repeated_) fail("a list of one value is too long");
+                repeated_ -= static_cast<std::size_t>(n);
+                all.assign(static_cast<std::size_t>(n), number<std::int64_t>("an integer"));
+                expect('}');
+                return all;
+            }
+            at_ = begin;
+        }
+        const std::size_t n = count(binary_ ? label_ : 1);
         if (binary_)
         {
             const char* from = bytes_.data() + raw(n, label_);
@@ -158,17 +174,30 @@ public:
                                           : io::impl::load<std::int32_t>(from, order_));
             return all;
         }
-        if (take('{'))
-        {
-            if (n > bytes_.size() * 64 + (1U << 20U)) fail("a list of one value is too long for this file");
-            all.assign(n, number<std::int64_t>("an integer"));
-            expect('}');
-            return all;
-        }
         expect('(');
         for (std::size_t k = 0; k < n; ++k) all.push_back(number<std::int64_t>("an integer"));
         expect(')');
         return all;
+    }
+
+    /// An entry `List<label> ...;` of a dictionary.
+    std::vector<std::int64_t> list_of_labels()
+    {
+        if (at('L')) word();
+        std::vector<std::int64_t> all = labels();
+        expect(';');
+        return all;
+    }
+
+    /// Goes past an entry `List<bool> ...;`, whose items are a byte each in binary.
+    void skip_flags()
+    {
+        if (at('L')) word();
+        if (binary_)
+            raw(count(1), 1);
+        else
+            while (!at(';')) word();
+        expect(';');
     }
 
     std::size_t scalar_bytes() const { return scalar_; }
@@ -194,6 +223,7 @@ private:
 
     std::string path_, bytes_, class_;
     std::size_t at_ = 0, label_ = 4, scalar_ = 8;
+    std::size_t repeated_ = 0; ///< items of lists of one value that may still come
     bool binary_ = false;
     std::endian order_ = std::endian::little;
 };

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -75,6 +76,10 @@ private:
         if (!known) throw io::io_error(path.string(), "no VTKFile of type PUnstructuredGrid; save the mesh as one");
         if (sources_.empty()) throw io::io_error(path.string(), "it has no pieces; save the mesh again");
         std::map<std::string, int> count;
+        std::set<std::filesystem::path> named;
+        for (std::size_t k = 0; k < sources_.size(); ++k)
+            if (!named.insert(std::filesystem::path(source(k)).lexically_normal()).second)
+                throw io::io_error(path.string(), "names the piece " + source(k) + " twice; name each once");
         for (std::size_t k = 0; k < sources_.size(); ++k)
         {
             auto name = std::filesystem::path(source(k)).filename().string();
