@@ -83,7 +83,6 @@ public:
         if (all_.rank() != 0 || options_.checkpoint.empty()) return;
         std::error_code unknown;
         const std::filesystem::path path = options_.checkpoint;
-        if (std::filesystem::is_directory(path, unknown)) return remove_case(path);
         std::vector<std::filesystem::path> files;
         if (path.extension() == ".pvtu") files = dist::impl::pieces_of(path);
         files.push_back(path);
@@ -92,21 +91,6 @@ public:
     }
 
 private:
-    /// The meshes of a case of OpenFOAM, and folders where nothing else is left.
-    static void remove_case(const std::filesystem::path& path)
-    {
-        std::error_code unknown;
-        std::vector<std::filesystem::path> pieces = {path};
-        for (const auto& entry : std::filesystem::directory_iterator(path, unknown))
-            if (entry.path().filename().string().starts_with("processor")) pieces.push_back(entry.path());
-        for (auto piece = pieces.rbegin(); piece != pieces.rend(); ++piece)
-        {
-            std::filesystem::remove_all(*piece / "constant" / "polyMesh", unknown);
-            std::filesystem::remove(*piece / "constant", unknown);
-            std::filesystem::remove(*piece, unknown);
-        }
-    }
-
     const dist::impl::communicator& all_;
     const mpi_options& options_;
     const shape_source<Element>& source_;
