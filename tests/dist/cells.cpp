@@ -7,12 +7,12 @@
 #include <vector>
 
 #include <dist/pieces.hpp>
-#include <taut/impl/dist/communicator.hpp>
-#include <taut/impl/dist/deal.hpp>
 #include <taut/impl/dist/shape_body.hpp>
+#include <taut/impl/dist_io/deal.hpp>
 #include <taut/impl/io/volume_file.hpp>
 #include <taut/impl/map/deform.hpp>
 #include <taut/impl/map/smooth.hpp>
+#include <taut/impl/processes/communicator.hpp>
 #include <taut/queue.hpp>
 
 namespace taut::test
