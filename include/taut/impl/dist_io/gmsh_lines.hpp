@@ -211,7 +211,7 @@ private:
         const auto w = numbers(item(lines, 0));
         std::size_t line = 1;
         for (int d = 0; d <= 3; ++d)
-            for (double k = 0; k < item(w, static_cast<std::size_t>(d)); ++k)
+            for (std::size_t k = 0; static_cast<double>(k) < item(w, static_cast<std::size_t>(d)); ++k)
             {
                 const auto entity = numbers(item(lines, line++));
                 const std::size_t count = d == 0 ? 4 : 7;

@@ -26,8 +26,8 @@ public:
     {
         std::string name;
         int dimension;
-        bool spare; ///< only where there are no others
-        friend auto operator<=>(const key&, const key&) = default;
+        bool spare;                                                ///< only where there are no others
+        friend auto operator<=>(const key&, const key&) = default; // NOLINT(modernize-use-nullptr): clang-tidy 14
     };
 
     int number(const key& k)

@@ -216,13 +216,13 @@ private:
             for (std::size_t v = 0; v < part.file.points.size(); ++v)
             {
                 const vec3 x = points[at++] + vec3(0.0); // no -0
-                std::uint64_t mixed = 0;
+                std::uint64_t hash = 0;
                 for (int k = 0; k < 3; ++k)
                 {
-                    mixed = (mixed ^ std::bit_cast<std::uint64_t>(x[k])) * 0x9e3779b97f4a7c15U;
-                    mixed ^= mixed >> 29U;
+                    hash = (hash ^ std::bit_cast<std::uint64_t>(x[k])) * 0x9e3779b97f4a7c15U;
+                    hash ^= hash >> 29U;
                 }
-                asked.push_back(static_cast<std::size_t>(mixed % all_.ranks()));
+                asked.push_back(static_cast<std::size_t>(hash % all_.ranks()));
                 to[asked.back()].push_back({x, static_cast<std::int64_t>(part.number), place++});
             }
         const auto got = all_.exchange(to);

@@ -183,7 +183,7 @@ protected:
     void finish_cells()
     {
         kinds = {};
-        for (const char kind : solids_) ++kinds[static_cast<std::size_t>(kind)];
+        for (const char kind : solids_) ++kinds[static_cast<unsigned char>(kind)];
         all_.add(std::span<std::int64_t>(kinds));
         cells = std::accumulate(kinds.begin(), kinds.end(), std::int64_t{0});
         mixed = cells != kinds[static_cast<std::size_t>(io::cell_kind::tetrahedron)];
