@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/dist/file/volume_pieces.ipp>
+#include <taut/impl/dist/entry_points/volume_pieces.ipp>

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include <dist/pieces.hpp>
-#include <taut/impl/dist/communicator.hpp>
-#include <taut/impl/dist/deal.hpp>
 #include <taut/impl/dist/shape_body.hpp>
+#include <taut/impl/dist_io/deal.hpp>
 #include <taut/impl/io/volume_file.hpp>
 #include <taut/impl/map/deform.hpp>
 #include <taut/impl/map/smooth.hpp>
+#include <taut/impl/processes/communicator.hpp>
 #include <taut/queue.hpp>
 
 namespace taut::test
@@ -53,8 +53,7 @@ TEST_CASE("dist cells: hexahedra and wedges find the energy of one process, to t
     const dist::impl::communicator all(MPI_COMM_WORLD);
     const auto parts = io::corner_simplices_of<tetrahedron>(cells_of_bar(2));
     const bool first = rank_of() == 0;
-    const auto piece =
-        dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
+    const auto part = dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
     const auto& m = parts.simplices;
     queue q;
     deform_params<tetrahedron> serial{.constraints = serial_ends(m, twisted(1.0)), .precision = precision::fp64};
@@ -65,18 +64,18 @@ TEST_CASE("dist cells: hexahedra and wedges find the energy of one process, to t
     REQUIRE(one.report.converged);
     dist::deform_params<tetrahedron> how{.constraints = ends(MPI_COMM_WORLD, m, twisted(1.0))};
     how.solve.stopping.gradient_tolerance = 1e-8;
-    const auto found = dist::deform(MPI_COMM_WORLD, piece, how);
+    const auto found = dist::deform(MPI_COMM_WORLD, part, how);
     CHECK(found.report.converged);
     CHECK(found.report.pins_held);
     CHECK(found.report.energy == doctest::Approx(one.report.energy).epsilon(1e-10));
-    CHECK(dist::check(MPI_COMM_WORLD, piece).elements == m.cell_count());
+    CHECK(dist::check(MPI_COMM_WORLD, part).elements == m.cell_count());
     // Smoothing has the shapes of regular cells as targets, and counts corners alike.
     smooth_params<tetrahedron> by_one{.targets = parts.regular, .owners = parts.cells, .precision = precision::fp64};
     by_one.solve.stopping.gradient_tolerance = 1e-8;
     const auto smoothed = smooth(q, m, by_one);
     dist::smooth_params by_all;
     by_all.solve.stopping.gradient_tolerance = 1e-8;
-    const auto better = dist::smooth(MPI_COMM_WORLD, piece, by_all);
+    const auto better = dist::smooth(MPI_COMM_WORLD, part, by_all);
     CHECK(better.report.converged);
     CHECK(better.report.energy == doctest::Approx(smoothed.report.energy).epsilon(1e-10));
 }
@@ -93,11 +92,11 @@ TEST_CASE("dist cells: energies have the same bits on any number of processes")
         {
             const dist::impl::communicator all(some.get());
             const bool first = rank_of(some.get()) == 0;
-            const auto piece =
+            const auto part =
                 dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
             dist::deform_params<tetrahedron> how{.constraints = ends(some.get(), parts.simplices, twisted(0.3))};
             how.solve.stopping.max_iterations = 0;
-            dist::session<tetrahedron> s(some.get(), piece, how);
+            dist::session<tetrahedron> s(some.get(), part, how);
             auto x = s.body().current();
             for (std::size_t i = 0; i < x.size(); i += 3) x[i] *= 1.25; // strained
             energy = s.body().objective().value(x);
@@ -113,9 +112,9 @@ TEST_CASE("dist cells: what is said of cells is of all of them")
     const dist::impl::communicator all(MPI_COMM_WORLD);
     const auto parts = io::corner_simplices_of<tetrahedron>(cells_of_bar(1));
     const bool first = rank_of() == 0;
-    auto piece = dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
-    if (rank_of() == size_of() - 1) piece.weights.push_back(1);
-    CHECK_THROWS_AS(dist::check(MPI_COMM_WORLD, piece), error);
+    auto part = dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
+    if (rank_of() == size_of() - 1) part.weights.push_back(1);
+    CHECK_THROWS_AS(dist::check(MPI_COMM_WORLD, part), error);
 }
 
 } // namespace taut::test

@@ -8,8 +8,8 @@
 
 #include <dist/pieces.hpp>
 #include <taut/impl/constrain/constraint_error.hpp>
-#include <taut/impl/dist/communicator.hpp>
 #include <taut/impl/mesh/mesh_error.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 namespace taut::test
 {

@@ -4,7 +4,7 @@ import filecmp
 import os
 
 import program
-from piece_files import foam, foam_case, mixed_bar, points_of_foam, points_of_vtu, pvtu, vtu
+from piece_files import foam, foam_case, foam_zones, mixed_bar, points_of_foam, points_of_vtu, pvtu, vtu
 from program import bar, fails, near, run, serial, stats, stats_of_check, stretched
 
 
@@ -102,6 +102,21 @@ def case_foam():
     run("deform", "bytes", "--fix", "floor", "--move", "roof:translate:0,0,2", "-o", "group", "--stats", "s.json")
     near(stats("s.json")["energy"], energy, 9)
     assert stats_of_check("group")["elements"] == len(b.cells)
+    # So are zones, as text and in binary, of pieces that have part of them or none.
+    for name, binary in (("text", False), ("bytes", True)):
+        for zone, group in (("cell", "cellZone:low"), ("face", "faceZone:low"), ("point", "pointZone:low")):
+            for k in range(2):
+                foam_zones(f"{name}/processor{k}/constant/polyMesh", zone, {"low": [0, 2], "none": []}, binary)
+            run("deform", name, "--fix", group, "--fix", zone + "Zone:none", "-o", f"{name}-{zone}", "--stats", "s.json")
+            most = {"cell": 8, "face": 6, "point": 2}[zone]
+            assert most < stats("s.json")["pins"] <= 2 * most or zone == "point", stats("s.json")["pins"]
+            assert 2 <= stats("s.json")["pins"] <= 2 * most, stats("s.json")["pins"]
+        for file in os.listdir(f"{name}/processor1/constant/polyMesh"):
+            here, there = (f"{c}/processor1/constant/polyMesh/{file}" for c in (name, name + "-point"))
+            assert file == "points" or filecmp.cmp(here, there, shallow=False), file
+    foam_zones("many/processor3/constant/polyMesh", "cell", {"far": [10**6]}, True)
+    fails("deform", "many", "--fix", "floor", "-o", "x", code=3, word="a zone names item 1000000")
+    fails("deform", "bytes", "--pins", "pins.csv", "-o", "x", "--checkpoint", "so-far", code=2, word="--checkpoint")
     # One that is not decomposed; one without numbers of points, which are joined where they are.
     foam("one/constant/polyMesh", b.points, b.cells, lambda around: patch([b.points[v] for v in around]))
     run("deform", "one", "--pins", "pins.csv", "-o", "one-moved", "--stats", "s.json", processes=3)
@@ -109,9 +124,11 @@ def case_foam():
     foam_case("plain", b.points, b.cells, 2, patch, numbers=False)
     run("deform", "plain", "--fix", "floor", "--move", "roof:translate:0,0,2", "-o", "plain-moved", "--stats", "s.json")
     near(stats("s.json")["energy"], energy, 9)
-    # Polyhedra, what is compressed, and what is no case are refused by name.
+    # Pieces in one file, polyhedra, what is compressed, and what is no case are refused by name.
     os.makedirs("empty")
     fails("deform", "empty", "-o", "x", code=3, word="no case of OpenFOAM")
+    os.makedirs("empty/processors2/constant/polyMesh")
+    fails("deform", "empty", "-o", "x", code=3, word="-fileHandler uncollated")
     os.rename("plain/processor1", "plain/processor7")
     fails("deform", "plain", "-o", "x", code=3, word="processor0 to processor7")
     os.rename("one/constant/polyMesh/owner", "one/constant/polyMesh/owner.gz")

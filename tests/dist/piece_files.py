@@ -186,6 +186,24 @@ class foam:
             f.write(b")" + more + b"\n\n// ***** //\n")
 
 
+def foam_zones(folder, kind, zones, binary):
+    """A file of zones, as OpenFOAM writes it: items of each by name; of faces with their orientations, too."""
+    def items(numbers):
+        return struct.pack(f"<{len(numbers)}i", *numbers) if binary else " ".join(map(str, numbers)).encode()
+
+    with open(f"{folder}/{kind}Zones", "wb") as f:
+        f.write(b"FoamFile\n{\n    version 2.0;\n    format " + (b"binary" if binary else b"ascii")
+                + b';\n    arch "LSB;label=32;scalar=64";\n    class regIOobject;\n}\n\n%d\n(\n' % len(zones))
+        for name, numbers in zones.items():
+            f.write(f"{name}\n{{\n    type {kind}Zone;\n    {kind}Labels List<label> \n{len(numbers)}\n".encode())
+            f.write(b"(" + items(numbers) + b");\n" if numbers or not binary else b";\n")
+            if kind == "face":
+                flags = b"(" + b"\0" * len(numbers) + b")" if binary and numbers else b"" if binary else b"{0}"
+                f.write(b"    flipMap List<bool> %d" % len(numbers) + flags + b";\n")
+            f.write(b"}\n")
+        f.write(b")\n")
+
+
 def foam_case(folder, points, cells, count, patch_of, binary=False, numbers=True):
     """A decomposed case. patch_of(points of a face): the patch, or None for a face between pieces or none."""
     outside = {}

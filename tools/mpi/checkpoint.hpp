@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <taut/dist.hpp>
-#include <taut/impl/dist/file/pvtu_volume.hpp>
+#include <taut/impl/dist_io/pvtu_volume.hpp>
 
 #include "mpi/shape_source.hpp"
 

@@ -16,9 +16,9 @@
 #include <mpi.h>
 
 #include <taut/impl/compute/errors.hpp>
-#include <taut/impl/dist/communicator.hpp>
 #include <taut/impl/io/io_error.hpp>
 #include <taut/impl/mesh/mesh_error.hpp>
+#include <taut/impl/processes/communicator.hpp>
 #include <taut/version.hpp>
 
 #include "commands.hpp"

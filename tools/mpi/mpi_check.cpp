@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include <taut/impl/dist/check.hpp>
-#include <taut/impl/dist/deal.hpp>
-#include <taut/impl/dist/file/open_volume.hpp>
-#include <taut/impl/dist/file/piece_shapes.hpp>
+#include <taut/impl/dist_io/deal.hpp>
+#include <taut/impl/dist_io/open_volume.hpp>
+#include <taut/impl/dist_io/piece_shapes.hpp>
 #include <taut/impl/io/read_volume.hpp>
 
 #include "mpi/mpi_options.hpp"

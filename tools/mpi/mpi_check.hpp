@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <taut/impl/dist/communicator.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 #include "shared/exit_codes.hpp"
 

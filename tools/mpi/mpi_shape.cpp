@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <taut/dist.hpp>
-#include <taut/impl/dist/deal.hpp>
+#include <taut/impl/dist_io/deal.hpp>
 
 #include "mpi/checkpoint.hpp"
 #include "mpi/mpi_report.hpp"

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include <taut/impl/dist/communicator.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 #include "mpi/mpi_options.hpp"
 #include "shared/exit_codes.hpp"

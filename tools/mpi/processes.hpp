@@ -4,7 +4,7 @@
 #include <string>
 
 #include <taut/impl/compute/queue.hpp>
-#include <taut/impl/dist/communicator.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 namespace taut::tools::mpi
 {

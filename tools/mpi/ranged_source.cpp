@@ -6,8 +6,8 @@
 #include <utility>
 
 #include <taut/impl/core/single.hpp>
-#include <taut/impl/dist/file/open_volume.hpp>
-#include <taut/impl/dist/file/piece_shapes.hpp>
+#include <taut/impl/dist_io/open_volume.hpp>
+#include <taut/impl/dist_io/piece_shapes.hpp>
 #include <taut/impl/exact/predicates.hpp>
 
 #include "mpi/ranged_targets.hpp"

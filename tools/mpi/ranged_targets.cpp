@@ -9,10 +9,10 @@
 #include <string_view>
 #include <utility>
 
-#include <taut/impl/dist/file/line_layout.hpp>
-#include <taut/impl/dist/fixed_sum.hpp>
+#include <taut/impl/dist_io/line_layout.hpp>
 #include <taut/impl/io/pins.hpp>
 #include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/processes/fixed_sum.hpp>
 
 #include "shared/failure.hpp"
 #include "volume/group_targets.hpp"

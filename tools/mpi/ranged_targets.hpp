@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <taut/impl/dist/constraints.hpp>
-#include <taut/impl/dist/file/ranged_volume.hpp>
+#include <taut/impl/dist_io/ranged_volume.hpp>
 
 #include "volume/shape_options.hpp"
 

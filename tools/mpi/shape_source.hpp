@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <taut/dist.hpp>
-#include <taut/impl/dist/communicator.hpp>
-#include <taut/impl/dist/file/ranged_volume.hpp>
+#include <taut/impl/dist_io/ranged_volume.hpp>
 #include <taut/impl/io/write_files.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 #include "mpi/mpi_options.hpp"
 #include "mpi/mpi_report.hpp"

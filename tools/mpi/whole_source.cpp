@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include <taut/impl/dist/deal.hpp>
+#include <taut/impl/dist_io/deal.hpp>
 #include <taut/impl/io/make_untangle_problem.hpp>
 #include <taut/impl/io/pins.hpp>
 #include <taut/impl/io/read_volume.hpp>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <dist/volume_files.hpp>
-#include <taut/impl/dist/file/open_volume.hpp>
+#include <taut/impl/dist_io/open_volume.hpp>
 
 namespace taut::test
 {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include <taut/impl/dist/fixed_part.hpp>
-#include <taut/impl/dist/part.hpp>
 #include <taut/impl/dist/report.hpp>
 #include <taut/impl/exact/certify.hpp>
+#include <taut/impl/processes/part.hpp>
 
 namespace taut::dist::impl
 {

@@ -3,8 +3,8 @@
 
 #include <mpi.h>
 
-#include <taut/impl/dist/mesh_piece.hpp>
 #include <taut/impl/dist/report.hpp>
+#include <taut/impl/processes/mesh_piece.hpp>
 
 namespace taut::dist
 {

@@ -12,7 +12,7 @@
 #include <taut/impl/constrain/constraint_error.hpp>
 #include <taut/impl/core/linalg.hpp>
 #include <taut/impl/dist/constraints.hpp>
-#include <taut/impl/dist/part.hpp>
+#include <taut/impl/processes/part.hpp>
 
 namespace taut::dist::impl
 {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <taut/impl/dist/fixed_part.hpp>
-#include <taut/impl/dist/vertex_exchange.hpp>
+#include <taut/impl/processes/vertex_exchange.hpp>
 #include <taut/impl/sparse/block_pattern.hpp>
 
 namespace taut::dist::impl

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/fixed_sum.hpp>
 #include <taut/impl/dist/free_rows.hpp>
 #include <taut/impl/dist/pinned_bodies.hpp>
+#include <taut/impl/processes/fixed_sum.hpp>
 #include <taut/impl/start/shape_path.hpp>
 
 namespace taut::dist::impl

@@ -13,8 +13,8 @@
 #include <taut/impl/dist/algebraic_multigrid.hpp>
 #include <taut/impl/dist/fixed_part.hpp>
 #include <taut/impl/dist/local_elements.hpp>
-#include <taut/impl/dist/phase_clock.hpp>
 #include <taut/impl/dist/space.hpp>
+#include <taut/impl/processes/phase_clock.hpp>
 #include <taut/impl/solve/objective.hpp>
 
 namespace taut::dist::impl

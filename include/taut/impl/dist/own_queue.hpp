@@ -9,7 +9,7 @@
 
 #include <taut/impl/compute/choose_device.hpp>
 #include <taut/impl/compute/queue.hpp>
-#include <taut/impl/dist/communicator.hpp>
+#include <taut/impl/processes/communicator.hpp>
 
 namespace taut::dist::impl
 {

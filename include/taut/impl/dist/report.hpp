@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <taut/impl/core/types.hpp>
-#include <taut/impl/dist/phase_clock.hpp>
 #include <taut/impl/map/map_result.hpp>
+#include <taut/impl/processes/phase_clock.hpp>
 
 namespace taut::dist
 {

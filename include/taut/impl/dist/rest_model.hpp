@@ -12,12 +12,12 @@
 #include <vector>
 
 #include <taut/impl/dist/deform_params.hpp>
-#include <taut/impl/dist/fixed_sum.hpp>
 #include <taut/impl/dist/local_elements.hpp>
-#include <taut/impl/dist/part.hpp>
 #include <taut/impl/energy/characteristic_gradient.hpp>
 #include <taut/impl/energy/characteristic_value.hpp>
 #include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/processes/fixed_sum.hpp>
+#include <taut/impl/processes/part.hpp>
 
 namespace taut::dist::impl
 {

@@ -9,8 +9,8 @@
 #include <taut/impl/core/observer.hpp>
 #include <taut/impl/dist/constraints.hpp>
 #include <taut/impl/dist/deform_params.hpp>
-#include <taut/impl/dist/mesh_piece.hpp>
 #include <taut/impl/dist/report.hpp>
+#include <taut/impl/processes/mesh_piece.hpp>
 
 namespace taut::dist::impl
 {

@@ -11,13 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/agreed_limits.hpp>
 #include <taut/impl/dist/certify_part.hpp>
 #include <taut/impl/dist/gathered_solve.hpp>
 #include <taut/impl/dist/harmonic_guess.hpp>
 #include <taut/impl/dist/objective.hpp>
 #include <taut/impl/dist/own_queue.hpp>
 #include <taut/impl/dist/rest_model.hpp>
+#include <taut/impl/processes/agreed_limits.hpp>
 #include <taut/impl/solve/minimize.hpp>
 #include <taut/impl/solve/prescribed.hpp>
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/dist/fixed_sum.hpp>
+#include <taut/impl/processes/fixed_sum.hpp>
 
 namespace taut::dist::impl
 {

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/dist_io/pieces_volume.hpp>
+#include <taut/impl/io/read_volume.hpp>
+#include <taut/impl/io/volume/xml.hpp>
+
+namespace taut::dist::impl
+{
+
+/// An unstructured grid of VTK in pieces: a .pvtu that names .vtu files, of any encoding. Written as a .pvtu whose
+/// pieces lie in a folder beside it that has its name.
+class pvtu_volume : public pieces_volume
+{
+public:
+    /// Collective. Throws io_error, mesh_error.
+    pvtu_volume(const communicator& all, const std::filesystem::path& path) : pieces_volume(all)
+    {
+        all_.together(
+            [&]
+            {
+                read_index(path);
+                const auto [begin, end] = share(sources_.size());
+                for (std::size_t k = begin; k < end; ++k) files_.push_back(read_piece(path, k));
+            });
+        join();
+    }
+
+protected:
+    std::filesystem::path output_of(const mesh_file& part, const std::filesystem::path& path) const override
+    {
+        return path.parent_path() / path.stem() / names_[part.number];
+    }
+
+    void add_index(const std::filesystem::path& path, named_later& to) const override
+    {
+        if (path.extension() != ".pvtu")
+            throw io::io_error(path.string(), "the output has the format of its input; give it the extension .pvtu");
+        std::string text;
+        std::size_t done = 0;
+        for (std::size_t k = 0; k < sources_.size(); ++k)
+        {
+            text.append(bytes_, done, sources_[k].first - done);
+            text += path.stem().string() + '/' + names_[k];
+            done = sources_[k].first + sources_[k].second;
+        }
+        to.add(path, text.append(bytes_, done));
+    }
+
+private:
+    void read_index(const std::filesystem::path& path)
+    {
+        bytes_ = io::impl::read_file(path);
+        io::impl::xml_tags tags(bytes_);
+        bool known = false;
+        while (const auto tag = tags.next())
+        {
+            if (tag->name == "VTKFile") known = tag->attribute_or("type", "") == "PUnstructuredGrid";
+            if (tag->name != "Piece") continue;
+            const auto source = tag->attribute("Source");
+            if (!source || source->empty())
+                throw io::io_error(path.string(), "a piece has no Source; save the mesh again");
+            sources_.push_back({static_cast<std::size_t>(source->data() - bytes_.data()), source->size()});
+        }
+        if (!known) throw io::io_error(path.string(), "no VTKFile of type PUnstructuredGrid; save the mesh as one");
+        if (sources_.empty()) throw io::io_error(path.string(), "it has no pieces; save the mesh again");
+        std::map<std::string, int> count;
+        std::set<std::filesystem::path> named;
+        for (std::size_t k = 0; k < sources_.size(); ++k)
+            if (!named.insert(std::filesystem::path(source(k)).lexically_normal()).second)
+                throw io::io_error(path.string(), "names the piece " + source(k) + " twice; name each once");
+        for (std::size_t k = 0; k < sources_.size(); ++k)
+        {
+            auto name = std::filesystem::path(source(k)).filename().string();
+            if (count[name]++ > 0) name = std::to_string(k) + '-' + name; // of another folder
+            names_.push_back(std::move(name));
+        }
+    }
+
+    std::string source(std::size_t k) const { return bytes_.substr(sources_[k].first, sources_[k].second); }
+
+    mesh_file read_piece(const std::filesystem::path& path, std::size_t k) const
+    {
+        const auto place = path.parent_path() / source(k);
+        mesh_file read{.number = k, .file = {}};
+        read.file.path = place.string();
+        read.file.bytes = io::impl::read_file(place);
+        std::string ids;
+        io::impl::xml_tags tags(read.file.bytes);
+        while (const auto tag = tags.next())
+        {
+            if (tag->name == "Piece" && tag->attribute_or("NumberOfPoints", "") == "0") return read; // stays as it is
+            if (tag->name == "PointData") ids = tag->attribute_or("GlobalIds", "");
+            if (tag->name == "AppendedData" || tag->name == "Points") break;
+        }
+        read.file = io::impl::parse_volume(std::move(read.file.bytes), io::volume_format::vtu, place.string());
+        for (auto& label : read.file.labels)
+        {
+            static constexpr std::array<std::string_view, 4> global = {"vtkGlobalPointIds", "GlobalPointIds",
+                                                                       "GlobalNodeId", "GlobalNodeIds"};
+            const bool known = std::find(global.begin(), global.end(), label.name) != global.end();
+            if (!label.of_cells && (known || (!ids.empty() && label.name == ids)) && read.global_ids.empty())
+                read.global_ids.assign(label.values.begin(), label.values.end());
+            if (!label.of_cells || (label.name != "vtkGhostType" && label.name != "vtkGhostLevels")) continue;
+            for (const long long x : label.values) // 1: of another piece
+                read.ghosts.push_back(label.name == "vtkGhostType" ? (x & 1) != 0 : x > 0);
+        }
+        return read;
+    }
+
+    std::string bytes_;
+    std::vector<std::pair<std::size_t, std::size_t>> sources_; ///< first byte and number of bytes
+    std::vector<std::string> names_;                           ///< of the pieces of an output
+};
+
+/// The files that a .pvtu names; none where it cannot be read.
+inline std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& path)
+{
+    std::vector<std::filesystem::path> files;
+    try
+    {
+        const std::string bytes = io::impl::read_file(path);
+        io::impl::xml_tags tags(bytes);
+        while (const auto tag = tags.next())
+            if (const auto source = tag->attribute("Source"); source && tag->name == "Piece")
+                files.push_back(path.parent_path() / std::string(*source));
+    }
+    catch (const io::io_error&)
+    {
+        return {};
+    }
+    return files;
+}
+
+} // namespace taut::dist::impl
