@@ -85,8 +85,7 @@ protected:
         };
     }
 
-    /// All charts at once. steps: of each, at most
-    /// exactly: to the limit of rounding, nearly, so that what can be flat is
+    /// Maps all charts, in `steps` each at most. exactly: nearly to the limit of rounding, so that what can be flat is.
     flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps, bool exactly = false)
     {
         auto params = params_.flattening;
@@ -266,8 +265,7 @@ protected:
     /// Parts these charts, one flag each, where they lie on themselves. Returns the flags of those that are unfit then.
     std::vector<char> part_overlaps(std::vector<char> bad);
 
-    /// Maps these charts anew with borders kept apart (roughly: in a hundred steps). Clears the flags where that
-    /// succeeds.
+    /// Maps these charts anew with borders kept apart (roughly: in 100 steps). Clears the flags where that succeeds.
     void keep_apart(std::vector<char>& bad, bool roughly = false)
     {
         constexpr idx most = 32; // one by one: more would take long
