@@ -104,7 +104,6 @@ public:
                      if (more < 0) p.bound = std::min(p.bound, p.search->result().energy);
                      p.bound = std::max(p.bound + more, 4 + 0.8 * (p.bound - 4));
                      if (p.search->adjust(p.bound, everywhere && params_.part)) return;
-                     if (std::exchange(p.anew, true)) return; // another search would end like this one
                      auto anew = std::make_unique<seam_search>(*p.rest, p.search->setting());
                      if (anew->run()) p.search = std::move(anew);
                  });
@@ -199,7 +198,6 @@ private:
         std::optional<rest_surface> rest;
         std::unique_ptr<seam_search> search;
         double bound = 4, price = 0;
-        bool anew = false; // it was searched a second time
     };
 
     std::size_t cells(std::size_t k) const { return u(pieces_.first_cell[k + 1] - pieces_.first_cell[k]); }
