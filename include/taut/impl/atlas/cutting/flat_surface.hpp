@@ -42,13 +42,24 @@ inline void set_seam(const rest_surface& rest, std::vector<char>& seam, idx side
     if (rest.twin(side) >= 0) seam[rest_surface::u(rest.twin(side))] = value;
 }
 
-/// What the seams count.
-inline double seam_price(const rest_surface& rest, std::span<const char> seam)
+/// Sum over the seams, each once. each: one a side
+inline double seam_sum(const rest_surface& rest, std::span<const char> seam, std::span<const double> each)
 {
     double sum = 0;
     for (std::size_t s = 0; s < seam.size(); ++s)
-        if (seam[s] && rest.twin(static_cast<idx>(s)) > static_cast<idx>(s)) sum += rest.price[s];
+        if (seam[s] && rest.twin(static_cast<idx>(s)) > static_cast<idx>(s)) sum += each[s];
     return sum;
+}
+
+/// What the seams count.
+inline double seam_price(const rest_surface& rest, std::span<const char> seam)
+{
+    return seam_sum(rest, seam, rest.price);
+}
+
+inline double seam_length(const rest_surface& rest, std::span<const char> seam)
+{
+    return seam_sum(rest, seam, rest.length);
 }
 
 /// Numbers the vertices of the cut surface anew.

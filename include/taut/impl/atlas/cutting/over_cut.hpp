@@ -82,7 +82,7 @@ public:
     /// least: of a way's weight, where the potential is greatest; 1: plain lengths
     over_cutting(const rest_surface& rest, double least) : rest_(rest), potential_(rest), least_(least) {}
 
-    /// Adds ways to a seam, `most` at most, while it counts less than `longest`. Returns how many.
+    /// Adds ways to a seam, `most` at most, while it is shorter than `longest`. Returns how many.
     int run(std::vector<char>& seam, double stop, int most, double longest = std::numeric_limits<double>::infinity())
     {
         const auto u = rest_surface::u;
@@ -91,7 +91,7 @@ public:
             const auto by_size = [](double a, double b) { return std::abs(a) < std::abs(b); };
             return static_cast<idx>(std::max_element(x.begin(), x.end(), by_size) - x.begin());
         };
-        double length = seam_price(rest_, seam);
+        double length = seam_length(rest_, seam);
         for (int added = 0; added < most; ++added)
         {
             if (!(length < longest)) return added;
@@ -110,7 +110,7 @@ public:
             for (const idx s : way)
             {
                 set_seam(rest_, seam, s, 1);
-                length += rest_.price[u(s)];
+                length += rest_.length[u(s)];
             }
         }
         return most;

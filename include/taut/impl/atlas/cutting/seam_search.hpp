@@ -120,7 +120,7 @@ private:
         // Loops around handles are never sewn up: where there are many, charts that go around none are better.
         constexpr double most_loops = 12; // length by the root of the area
         const double root = std::sqrt(rest_.total);
-        if (seam_price(rest_, flat_.seam) > most_loops * root) return false;
+        if (seam_length(rest_, flat_.seam) > most_loops * root) return false;
         // Strips of a smooth surface that are half as wide have a sixteenth of the excess.
         const double longest = most_loops * root * std::pow(std::max(1.0, 0.1 / (setting_.bound - 4)), 0.25);
         over_cutting more(rest_, setting_.least_weight);
@@ -139,12 +139,12 @@ private:
         // Corners that few triangles meet in have little curvature for what they distort.
         for (int turn = 0; turn < 40 && flat_.energy > enough && flat_.energy < infinite && proceed(); ++turn)
         {
-            if (seam_price(rest_, flat_.seam) > longest) break;
+            if (seam_length(rest_, flat_.seam) > longest) break;
             if (cut_strained(rest_, flat_, 0.5 * (flat_.energy - enough)) == 0) break;
             number_fans(rest_, flat_);
             relax(rest_, flat_, 60, 1e-4);
         }
-        if (flat_.energy > setting_.bound && flat_.energy < infinite && seam_price(rest_, flat_.seam) >= longest)
+        if (flat_.energy > setting_.bound && flat_.energy < infinite && seam_length(rest_, flat_.seam) >= longest)
         {
             rough_ = true;
             setting_.bound = 4 + (flat_.energy - 4) / setting_.over;
