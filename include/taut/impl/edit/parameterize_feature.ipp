@@ -5,6 +5,7 @@
 
 #include <taut/impl/edit/attach/laid_feature.hpp>
 #include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/paste.ipp>
 
 namespace taut
 {
