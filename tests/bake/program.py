@@ -450,7 +450,7 @@ def test_images_of_few_bytes():
     run("bake", "old.obj", "new.obj", "--texture", "blank.png", "-o", "x.png", "--resolution", "64", "--quiet")
 
 
-def exr(width, height, channels, kind="f", window=None, tiled=0):
+def exr(width, height, channels, kind="f", window=None, tiled=0, kind_of_part=None):
     """An EXR file without compression; channels: {name: number of i, j}, j from the top."""
     code = {"I": 0, "e": 1, "f": 2}[kind]
     names = sorted(channels)
@@ -463,6 +463,7 @@ def exr(width, height, channels, kind="f", window=None, tiled=0):
     head += attribute("pixelAspectRatio", "float", struct.pack("<f", 1)) + attribute("screenWindowCenter", "v2f", bytes(8))
     head += attribute("screenWindowWidth", "float", struct.pack("<f", 1))
     head += attribute("tiles", "tiledesc", struct.pack("<IIB", tiled, tiled, 0)) if tiled else b""
+    head += attribute("type", "string", kind_of_part) if kind_of_part else b""
     row = lambda j, i0, i1: b"".join(struct.pack("<" + kind, channels[n](i, j)) for n in names for i in range(i0, i1))
     if tiled:
         blocks = []
@@ -491,7 +492,9 @@ def test_exr_of_others():
     colours = {"R": step, "G": lambda i, j: i / 16, "B": lambda i, j: j / 16}
     made = {}
     for name, data in (("float", exr(7, 5, colours)), ("half", exr(7, 5, colours, "e")), ("tiles", exr(7, 5, colours, "f", tiled=4)),
-                       ("alpha", exr(7, 5, {**colours, "A": lambda i, j: 1.0})), ("more", exr(7, 5, {**colours, "Z": step}))):
+                       ("alpha", exr(7, 5, {**colours, "A": lambda i, j: 1.0})), ("more", exr(7, 5, {**colours, "Z": step})),
+                       ("typed", exr(7, 5, colours, kind_of_part=b"scanlineimage")),
+                       ("typed tiles", exr(7, 5, colours, tiled=4, kind_of_part=b"tiledimage"))):
         (FOLDER / "t.exr").write_bytes(data)
         run("bake", "old.obj", "old.obj", "--texture", "t.exr", "-o", name + ".png", "--content", "data", "--filter", "nearest",
             "--quiet")
@@ -511,7 +514,9 @@ def test_exr_of_others():
                        (other_tiles(4, struct.pack("<IIB", 1, 1, 0)), "has tiles outside of the image or the file"),
                        (tiles[:-200], "has tiles outside of the image or the file"),
                        (tiles.replace(b"tiledesc\0" + struct.pack("<i", 9), b"tiledesc\0" + struct.pack("<i", 8)), "no EXR of one part"),
-                       (whole.replace(b"displayWindow\0box2i\0" + struct.pack("<i", 16), b"type\0string\0" + struct.pack("<i", 16)),
+                       *((exr(7, 5, colours, tiled=size, kind_of_part=of), "no EXR of one part")
+                         for size, of in ((0, b"tiledimage"), (0, b"deepscanline"), (0, b"x"), (4, b"scanlineimage"))),
+                       (exr(7, 5, colours, tiled=4, kind_of_part=b"tiledimage").replace(b"tiles\0", b"other\0"),
                         "no EXR of one part")):
         (FOLDER / "t.exr").write_bytes(data)
         assert says in run("bake", "old.obj", "old.obj", "--texture", "t.exr", "-o", "x.png", code=3), says

@@ -188,8 +188,11 @@ private:
     /// Whether the attributes on which tinyexr ends the program hold what it takes for granted; it reports others.
     bool attributes_hold(bool tiled) const
     {
-        for (std::size_t at = version_bytes; at < bytes_.size() && bytes_[at] != '\0';)
+        bool has_tiles = false;
+        std::size_t at = version_bytes;
+        for (int read = 0; at < bytes_.size() && bytes_[at] != '\0'; ++read)
         {
+            if (read == TINYEXR_MAX_HEADER_ATTRIBUTES) return false; // the rest would not be read
             const std::size_t type = bytes_.find('\0', at) + 1;
             const std::size_t length = type == 0 ? 0 : bytes_.find('\0', type) + 1;
             if (length == 0 || bytes_.size() - length < 4) break;
@@ -199,9 +202,10 @@ private:
             if (name == "type" && value.substr(0, value.find('\0')) != (tiled ? "tiledimage" : "scanlineimage"))
                 return false;
             if (name == "tiles" && size != 9) return false;
+            has_tiles = has_tiles || name == "tiles";
             at = begin + size;
         }
-        return true;
+        return has_tiles || !tiled;
     }
 
     /// Throws error unless the table of tiles leads to tiles of the image: tinyexr reads where it is told to.
