@@ -135,10 +135,10 @@ protected:
     /// Charts along short seams (short_charts.hpp).
     void cut_short();
 
-    /// The charts of a run that has ended; those without a map, or (but for `any`) a good one, as they are seen.
-    void cut_unfinished(laid_triangles laid, std::span<const char> crosses, bool any = false)
+    /// The charts of a run that has ended; those without a good map as they are seen.
+    void cut_unfinished(laid_triangles laid, std::span<const char> crosses)
     {
-        const double bound = any ? std::numeric_limits<double>::max() : params_.charts.max_distortion;
+        const double bound = params_.charts.max_distortion;
         const double most = std::max(seen_patches::most_energy, std::isfinite(bound) ? bound : 4.0);
         std::vector<char> wanted(laid.energy.size());
         for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);

@@ -155,31 +155,12 @@ private:
     /// Of a run that has ended: what has no good map becomes patches.
     void lay_unfinished()
     {
-        if (rough_) take_starts();
         const auto bad = c_.unfit();
         std::vector<char> crosses(c_.mesh_.cells().size(), 0);
         for (std::size_t k = 0; k < bad.size(); ++k)
             for (auto i = u(c_.charts_->first_cell[k]); i < u(c_.charts_->first_cell[k + 1]); ++i)
                 crosses[u(c_.charts_->cell_origins[i])] = bad[k];
-        c_.cut_unfinished(c_.triangles_as_laid(), crosses, rough_);
-    }
-
-    /// Gives charts without a map the one that it would begin with: what is seen of a rough surface are single
-    /// triangles.
-    void take_starts()
-    {
-        auto start = c_.params_.flattening;
-        start.initial = {};
-        start.max_iterations = 0;
-        start.tuning.largest = std::numeric_limits<double>::max(); // none by multigrid
-        const auto made = flatten_charts(c_.queue_, *c_.charts_, start);
-        for (std::size_t k = 0; k < c_.energy_.size(); ++k)
-        {
-            if (c_.energy_[k] < std::numeric_limits<double>::infinity()) continue;
-            std::copy(made.uv.begin() + c_.charts_->first_vertex[k], made.uv.begin() + c_.charts_->first_vertex[k + 1],
-                      c_.flat_.begin() + c_.charts_->first_vertex[k]);
-            c_.energy_[k] = made.charts[k].energy;
-        }
+        c_.cut_unfinished(c_.triangles_as_laid(), crosses);
     }
 
     std::string note_above(double mean, bool rough) const
