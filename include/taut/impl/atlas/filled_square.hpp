@@ -51,7 +51,7 @@ public:
         std::vector<idx> all(mesh_.cells().size());
         std::iota(all.begin(), all.end(), idx(0));
         auto charts = charts_of(all, seam);
-        const auto first = seam;
+        std::vector<char> first = seam;
         const double at_first = use_of(charts, packing_effort::full);
         if (!(at_first < enough)) return first;
         double best_use = use_of(charts, packing_effort::estimate), use = best_use, spent = 0, best_spent = 0;

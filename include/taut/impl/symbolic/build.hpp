@@ -29,6 +29,8 @@ inline node_id constant_of(tape& t, scalar_type type, double value)
 /// Is one the negation of the other? Only by construction: `x < y` and `y <= x` are both false for NaN.
 bool are_opposite(const tape& t, node_id a, node_id b);
 
+/// The node of an operation: folded, simplified, in a canonical order of operands, and shared. Every operation of a
+/// sym, and every one that differentiation adds, comes through here.
 node_id build(tape& t, opcode op, scalar_type type, node_id a, node_id b = no_node, node_id c = no_node);
 
 /// The operation on constants, done now and in the operation's own precision: a float kernel sees the float result.
@@ -48,10 +50,6 @@ constexpr bool commutes(opcode op) noexcept
     return op == opcode::add || op == opcode::mul || op == opcode::equal || op == opcode::not_equal ||
            op == opcode::logical_and || op == opcode::logical_or;
 }
-
-/// The node of an operation: folded, simplified, in a canonical order of operands, and shared. Every operation of a
-/// sym, and every one that differentiation adds, comes through here.
-node_id build(tape& t, opcode op, scalar_type type, node_id a, node_id b, node_id c);
 
 /// The type that two operands share. A constant takes that of the other one. Throws tape_error where float meets
 /// double.
