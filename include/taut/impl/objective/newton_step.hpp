@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include <taut/impl/energy/eigenvalue_filter.hpp>
+#include <taut/impl/symbolic/sym.hpp>
 
 namespace taut::impl
 {

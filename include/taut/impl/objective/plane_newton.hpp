@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <taut/impl/constrain/point_constraints.hpp>
-#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/core/linalg.hpp>
 #include <taut/impl/energy/corner_derivatives.hpp>
 #include <taut/impl/energy/modes.hpp>
 #include <taut/impl/mesh/first_flip.hpp>
