@@ -85,7 +85,7 @@ nb::dict for_cut_surface(const nb::dict& given, const mesh<triangle>& whole, con
         }
         changed[name] = array_of(ids);
     }
-    impl::refuse_vertices(constraint_fault::contradictory, std::move(divided),
+    impl::refuse_vertices(constraint_error::contradictory, std::move(divided),
                           "on the seam, which divides them into several; pin vertices beside it");
     return changed;
 }

@@ -95,7 +95,7 @@ public:
         }
         catch (const mesh_error& e)
         {
-            if (options_.repair || e.fault() == mesh_fault::empty || e.fault() == mesh_fault::too_large) throw;
+            if (options_.repair || e.fault() == mesh_error::empty || e.fault() == mesh_error::too_large) throw;
             std::string more = "; or let --repair repair it";
             for (const auto& s : sources_)
                 if (!s->near_edges.empty()) more += "; " + s->near_edges;

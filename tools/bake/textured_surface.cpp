@@ -90,7 +90,7 @@ void read_soup(textured_surface& s, io::surface_format format)
 {
     auto file = io::read_surface_soup(s.path, format);
     if (!file.texcoord_fault.empty()) throw unsuitable_input(file.texcoord_fault + "; correct it");
-    if (file.triangles.empty()) throw mesh_error(mesh_fault::empty, {}, s.path + ": there are no triangles");
+    if (file.triangles.empty()) throw mesh_error(mesh_error::empty, {}, s.path + ": there are no triangles");
     s.points = std::move(file.points);
     s.triangles = std::move(file.triangles);
     s.notes = std::move(file.notes);
@@ -98,7 +98,7 @@ void read_soup(textured_surface& s, io::surface_format format)
     for (std::size_t t = 0; t < file.texcoord_cells.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             if (const idx x = file.texcoord_cells[t][k]; x >= 0) s.uv[t][k] = file.texcoords[at(x)];
-    if (s.points.empty()) throw mesh_error(mesh_fault::empty, {}, s.path + ": there are no vertices");
+    if (s.points.empty()) throw mesh_error(mesh_error::empty, {}, s.path + ": there are no vertices");
     leave_out_unusable(s);
     s.normals = smooth_normals(s.points, s.triangles);
     if (file.normals.empty()) return;

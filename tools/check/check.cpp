@@ -193,7 +193,7 @@ void check_surface(check_report& report, const check_options& options)
     const auto file = find_surface(report, options.input, std::move(soup), repairs);
     if (!file) return report_repairs(report, repairs, false);
     if (!unused.empty())
-        report.add({false, "mesh", to_string(mesh_fault::unreferenced_vertex), unused, impl::describe_unused(unused)},
+        report.add({false, "mesh", to_string(mesh_error::unreferenced_vertex), unused, impl::describe_unused(unused)},
                    exit_code::valid);
     const auto cut = find_cut(report, *file);
     const auto& m = cut ? cut->surface : file->surface;
@@ -228,7 +228,7 @@ void check_problem(check_report& report, const check_options& options, io::impl:
     const impl::mesh_requirements need{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
     for (const auto& f : taut::check(problem.rest, need))
         report_mesh(report, f,
-                    f.fault != mesh_fault::unreferenced_vertex && f.fault != mesh_fault::non_manifold_vertex);
+                    f.fault != mesh_error::unreferenced_vertex && f.fault != mesh_error::non_manifold_vertex);
     auto pins = taut::constraints(problem.rest);
     pins.fix(fixed, problem.initial);
     read_constraints(report, options.pins, pins, problem.rest.vertex_count());

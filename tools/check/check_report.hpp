@@ -64,7 +64,7 @@ struct check_report
 
 inline void report_mesh(check_report& report, const impl::mesh_finding& f, bool wrong, const std::string& repair = {})
 {
-    const bool holes = f.fault == mesh_fault::several_boundaries;
+    const bool holes = f.fault == mesh_error::several_boundaries;
     report.add(
         {wrong, "mesh", to_string(f.fault), f.ids, f.message + (holes ? ", or `taut unwrap --holes`" : ""), repair},
         code_of(f.fault));

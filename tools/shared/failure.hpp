@@ -51,9 +51,9 @@ public:
 };
 
 /// A face that names a vertex which is not there, or a NaN, is a broken file rather than a difficult mesh.
-inline exit_code code_of(mesh_fault fault)
+inline exit_code code_of(mesh_error::fault_type fault)
 {
-    const bool broken = fault == mesh_fault::index_out_of_range || fault == mesh_fault::non_finite;
+    const bool broken = fault == mesh_error::index_out_of_range || fault == mesh_error::non_finite;
     return broken ? exit_code::unreadable_input : exit_code::unsuitable_input;
 }
 

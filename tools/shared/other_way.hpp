@@ -11,7 +11,7 @@ namespace taut::tools
 {
 
 /// Alternative that the program offers, after a message, where a surface is no disk; empty if the command has none.
-std::string other_way(mesh_fault fault, std::string_view name);
+std::string other_way(mesh_error::fault_type fault, std::string_view name);
 
 /// The same for a file that a command does not read.
 std::string other_way(const io::io_error& error, std::string_view name);

@@ -23,25 +23,25 @@ namespace
 /// Returns whether a fault is one of the pieces that a cut leaves, not of some triangles.
 bool is_of_pieces(const impl::mesh_finding& f)
 {
-    return f.fault == mesh_fault::several_components || f.fault == mesh_fault::closed_surface ||
-           f.fault == mesh_fault::several_boundaries || f.fault == mesh_fault::handles ||
-           f.fault == mesh_fault::non_manifold_vertex;
+    return f.fault == mesh_error::several_components || f.fault == mesh_error::closed_surface ||
+           f.fault == mesh_error::several_boundaries || f.fault == mesh_error::handles ||
+           f.fault == mesh_error::non_manifold_vertex;
 }
 
 /// "6 charts with 7 boundary loops"
 std::string describe_pieces(const mesh<triangle>& cut, const impl::facet_table& sides,
                             const std::vector<impl::mesh_finding>& faults)
 {
-    const auto found = [&](mesh_fault fault) {
+    const auto found = [&](mesh_error::fault_type fault) {
         return std::find_if(faults.begin(), faults.end(),
                             [&](const impl::mesh_finding& f) { return f.fault == fault; });
     };
-    const auto parts = found(mesh_fault::several_components);
+    const auto parts = found(mesh_error::several_components);
     std::string text = count(parts == faults.end() ? 1 : parts->ids.size(), "chart", "charts");
     if (sides.oriented())
         text += " with " + count(boundary_loops(cut, sides).size(), "boundary loop", "boundary loops");
-    if (found(mesh_fault::handles) != faults.end()) text += " and handles";
-    const auto touching = found(mesh_fault::non_manifold_vertex);
+    if (found(mesh_error::handles) != faults.end()) text += " and handles";
+    const auto touching = found(mesh_error::non_manifold_vertex);
     if (touching != faults.end()) text += ", whose parts touch in " + count(touching->ids.size(), "vertex", "vertices");
     return text;
 }

@@ -52,13 +52,13 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
     report.details["degenerate_ids"] = thin;
     if (!turned.empty())
         report_mesh(report,
-                    {mesh_fault::inverted_cell, turned,
+                    {mesh_error::inverted_cell, turned,
                      list_cells(input, turned) + " inverted, in a mesh that is oriented as " + input.file().format +
                          " files are; `taut untangle` moves vertices"},
                     true);
     if (!thin.empty())
         report_mesh(report,
-                    {mesh_fault::degenerate_cell, thin,
+                    {mesh_error::degenerate_cell, thin,
                      list_cells(input, thin) +
                          (std::includes(state.inverted.begin(), state.inverted.end(), thin.begin(), thin.end())
                               ? " flat"
@@ -74,8 +74,8 @@ void report_facets(check_report& report, const mesh<Element>& m)
     const impl::mesh_requirements need{
         .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
     for (const auto& f : taut::check(m, need))
-        if (f.fault != mesh_fault::degenerate_cell && f.fault != mesh_fault::inverted_cell)
-            report_mesh(report, f, Element::dimension == 2 || f.fault != mesh_fault::non_manifold_vertex);
+        if (f.fault != mesh_error::degenerate_cell && f.fault != mesh_error::inverted_cell)
+            report_mesh(report, f, Element::dimension == 2 || f.fault != mesh_error::non_manifold_vertex);
 }
 
 /// Triangles on one side and a quad on the other are no common face: the cells come apart there.
@@ -137,7 +137,7 @@ void report_contents(check_report& report, const io::volume_file& file)
     for (std::size_t v = 0; v < used.size(); ++v)
         if (!used[v]) unused.push_back(static_cast<idx>(v));
     if (!unused.empty())
-        report.add({false, "mesh", to_string(mesh_fault::unreferenced_vertex), unused,
+        report.add({false, "mesh", to_string(mesh_error::unreferenced_vertex), unused,
                     impl::list_ids("vertex", "vertices", unused) + " without a cell; they stay where they are"},
                    exit_code::valid);
 

@@ -104,7 +104,7 @@ std::vector<vec2> map_of(const chart_mesh& charts, const flattened_charts& flat,
 double energy_of(const mesh<triangle>& m, const std::vector<vec2>& uv)
 {
     return mean_over<triangle>(m, ideal_elements<triangle>(m), uv,
-                               [](const auto& e) { return bounded(energy::isometric{}, e); })
+                               [](const auto& e) { return impl::bounded(energy::isometric{}, e); })
         .measure;
 }
 

@@ -385,11 +385,11 @@ TEST_CASE("parameterize: unsuitable surfaces are refused with their fault")
         {
             return e.fault();
         }
-        return mesh_fault::empty;
+        return mesh_error::empty;
     };
-    CHECK(fault_of(test::octahedron()) == mesh_fault::closed_surface);
-    CHECK(fault_of(test::annulus(12)) == mesh_fault::several_boundaries);
-    CHECK(fault_of(test::two_components()) == mesh_fault::several_components);
+    CHECK(fault_of(test::octahedron()) == mesh_error::closed_surface);
+    CHECK(fault_of(test::annulus(12)) == mesh_error::several_boundaries);
+    CHECK(fault_of(test::two_components()) == mesh_error::several_components);
     CHECK(parameterize(q, test::annulus(12), {.holes = true, .solve = {.stopping = {.max_iterations = 5}}}));
 }
 

@@ -427,7 +427,7 @@ TEST_CASE("session: what cannot be is refused, and everything is as before")
     queue q;
     const auto m = bump();
     session s(q, m);
-    const auto refused = [&](auto&& call, constraint_fault fault)
+    const auto refused = [&](auto&& call, constraint_error::fault_type fault)
     {
         try
         {
@@ -441,16 +441,16 @@ TEST_CASE("session: what cannot be is refused, and everything is as before")
     };
     const std::vector<idx> some{0, 1};
     const auto shift = [](const vec2& p) { return p + vec2(1, 0); };
-    refused([&] { s.move(some, shift); }, constraint_fault::no_position);
+    refused([&] { s.move(some, shift); }, constraint_error::no_position);
     const auto first = s.solve();
     const auto n = m.vertex_count();
-    refused([&] { s.pin(n, {0, 0}); }, constraint_fault::out_of_range);
-    refused([&] { s.pin(0, {NAN, 0}); }, constraint_fault::not_finite);
-    refused([&] { s.pin(0, 2, 0.0); }, constraint_fault::no_coordinate);
-    refused([&] { s.release(-1); }, constraint_fault::out_of_range);
-    refused([&] { s.spring(0, {0, 0}, -1); }, constraint_fault::bad_weight);
-    refused([&] { s.move(some, std::vector<vec2>{{0, 0}}); }, constraint_fault::wrong_count);
-    refused([&] { s.move(std::vector<idx>{0, n}, shift); }, constraint_fault::out_of_range);
+    refused([&] { s.pin(n, {0, 0}); }, constraint_error::out_of_range);
+    refused([&] { s.pin(0, {NAN, 0}); }, constraint_error::not_finite);
+    refused([&] { s.pin(0, 2, 0.0); }, constraint_error::no_coordinate);
+    refused([&] { s.release(-1); }, constraint_error::out_of_range);
+    refused([&] { s.spring(0, {0, 0}, -1); }, constraint_error::bad_weight);
+    refused([&] { s.move(some, std::vector<vec2>{{0, 0}}); }, constraint_error::wrong_count);
+    refused([&] { s.move(std::vector<idx>{0, n}, shift); }, constraint_error::out_of_range);
     CHECK(s.constraints().empty());
     CHECK_THROWS_AS(s.solve({.steps = 0}), parameter_error);
     CHECK_THROWS_AS(s.solve({.time = std::chrono::duration<double>(-1)}), parameter_error);

@@ -64,10 +64,10 @@ TEST_CASE("chart_start: what has no map is refused with its fault")
         {
             return e.fault();
         }
-        return mesh_fault::empty;
+        return mesh_error::empty;
     };
-    CHECK(fault(test::octahedron()) == mesh_fault::closed_surface);
-    CHECK(fault(test::torus(5, true)) == mesh_fault::handles);
+    CHECK(fault(test::octahedron()) == mesh_error::closed_surface);
+    CHECK(fault(test::torus(5, true)) == mesh_error::handles);
 }
 
 TEST_CASE("single_chart: is brought near 1 by a power of two")

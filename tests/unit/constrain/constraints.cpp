@@ -17,7 +17,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 template <class Call>
-void check_refused(const Call& call, constraint_fault fault, const std::vector<taut::idx>& ids)
+void check_refused(const Call& call, constraint_error::fault_type fault, const std::vector<taut::idx>& ids)
 {
     try
     {
@@ -63,7 +63,7 @@ TEST_CASE("constraints: what cannot hold is refused with the vertices it concern
 {
     const auto m = test::grid(4, 4); // 25 vertices
     auto c = taut::constraints(m).pin(3, {1, 1}).pin_u(5, 0.5).spring(7, {0, 0}, 1);
-    using f = constraint_fault;
+    using f = constraint_error::fault_type;
     check_refused([&] { c.pin(25, {0, 0}); }, f::out_of_range, {25});
     check_refused([&] { c.pin(-1, {0, 0}); }, f::out_of_range, {-1});
     check_refused([&] { c.spring(99, {0, 0}, 1); }, f::out_of_range, {99});
@@ -126,22 +126,22 @@ TEST_CASE("constraints: moving pins keeps what cannot hold out, and leaves what 
     const auto m = test::grid(2, 2);
     constraints<triangle> c(m);
     c.pin(0, {1, 2}).spring(5, {1, 1}, 2);
-    check_refused([&] { c.repin(9, {0, 0}); }, constraint_fault::out_of_range, {9});
-    check_refused([&] { c.repin(0, {0, not_a_number}); }, constraint_fault::not_finite, {0});
-    check_refused([&] { c.repin(0, 2, 0.0); }, constraint_fault::no_coordinate, {0});
-    check_refused([&] { c.repin(5, {0, 0}); }, constraint_fault::idle_spring, {5});
+    check_refused([&] { c.repin(9, {0, 0}); }, constraint_error::out_of_range, {9});
+    check_refused([&] { c.repin(0, {0, not_a_number}); }, constraint_error::not_finite, {0});
+    check_refused([&] { c.repin(0, 2, 0.0); }, constraint_error::no_coordinate, {0});
+    check_refused([&] { c.repin(5, {0, 0}); }, constraint_error::idle_spring, {5});
     check_refused(
         [&] {
             c.repin(std::vector<taut::idx>{1, 1}, std::vector<vec2>{{0, 0}, {1, 0}});
         },
-        constraint_fault::contradictory, {1});
+        constraint_error::contradictory, {1});
     check_refused(
         [&] {
             c.repin(std::vector<taut::idx>{1, 2}, std::vector<vec2>{{0, 0}});
         },
-        constraint_fault::wrong_count, {});
-    check_refused([&] { c.respring(5, {0, 0}, -1); }, constraint_fault::bad_weight, {5});
-    check_refused([&] { c.release(-1); }, constraint_fault::out_of_range, {-1});
+        constraint_error::wrong_count, {});
+    check_refused([&] { c.respring(5, {0, 0}, -1); }, constraint_error::bad_weight, {5});
+    check_refused([&] { c.release(-1); }, constraint_error::out_of_range, {-1});
     CHECK(c.pins().size() == 1);
     CHECK(c.pins().at(0).value == vec2(1, 2));
     REQUIRE(c.springs().size() == 1);
@@ -162,7 +162,7 @@ TEST_CASE("constraints: sets are fixed where they are and moved by a transform")
     CHECK(taut::constraints(flat).fix(ids).pins().at(15).value == vec2(1, 1));
 
     const auto wavy = test::bumpy(3);
-    check_refused([&] { taut::constraints(wavy).fix(ids); }, constraint_fault::no_position, {});
+    check_refused([&] { taut::constraints(wavy).fix(ids); }, constraint_error::no_position, {});
 
     const auto volume = test::cube(2);
     const auto lifted = taut::constraints(volume)
@@ -184,9 +184,9 @@ TEST_CASE("constraints: the boundary goes around a polygon by arc length")
     const auto turned = taut::constraints(m).pin_boundary(square, 4);
     CHECK(turned.pins().at(4).value == vec2(0, 0));
     CHECK(turned.pins().at(24).value == vec2(2, 0));
-    check_refused([&] { taut::constraints(m).pin_boundary(square, 12); }, constraint_fault::out_of_range, {12});
+    check_refused([&] { taut::constraints(m).pin_boundary(square, 12); }, constraint_error::out_of_range, {12});
 
-    using f = constraint_fault;
+    using f = constraint_error::fault_type;
     const auto pin_to = [&](std::vector<vec2> polygon)
     { return [&m, polygon = std::move(polygon)] { taut::constraints(m).pin_boundary(polygon); }; };
     check_refused(pin_to({{0, 0}, {1, 0}}), f::bad_polygon, {});
@@ -216,7 +216,7 @@ TEST_CASE("constraints: a problem holds the pins bit for bit, whatever the map h
     CHECK(p.initial[0] == vec2(0.1, 0.2));
     CHECK(p.initial[8] == vec2(7, 1.0 / 3));
     CHECK(p.held.bits() == std::vector<std::uint8_t>{3, 0, 0, 0, 0, 0, 0, 0, 2});
-    check_refused([&] { make_untangle_problem(m, std::vector<vec2>(8), c); }, constraint_fault::wrong_count, {});
+    check_refused([&] { make_untangle_problem(m, std::vector<vec2>(8), c); }, constraint_error::wrong_count, {});
 }
 
 TEST_CASE("constraints: a file of pins becomes pins and springs")
@@ -227,7 +227,7 @@ TEST_CASE("constraints: a file of pins becomes pins and springs")
     CHECK(c.held(0) == 3);
     CHECK(c.held(3) == 2);
     CHECK(c.springs().at(0).vertex == 5);
-    check_refused([&] { add_pins(c, io::impl::parse_pins<2>("0,1,3\n")); }, constraint_fault::contradictory, {0});
+    check_refused([&] { add_pins(c, io::impl::parse_pins<2>("0,1,3\n")); }, constraint_error::contradictory, {0});
 }
 
 TEST_CASE("constraints: targets that another unit brings out of range are named")
@@ -243,7 +243,7 @@ TEST_CASE("constraints: targets that another unit brings out of range are named"
     }
     catch (const constraint_error& e)
     {
-        CHECK(e.fault() == constraint_fault::not_finite);
+        CHECK(e.fault() == constraint_error::not_finite);
         CHECK(e.ids() == std::vector<idx>{1, 3});
     }
 }

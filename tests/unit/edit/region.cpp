@@ -18,7 +18,7 @@ using namespace taut::impl;
 namespace
 {
 
-region_fault fault_of(const auto& call)
+region_error::fault_type fault_of(const auto& call)
 {
     try
     {
@@ -29,7 +29,7 @@ region_fault fault_of(const auto& call)
         return e.fault();
     }
     FAIL("no region_error");
-    return region_fault::empty;
+    return region_error::empty;
 }
 
 /// The triangles of a grid of n by n quads whose quad is in a set.
@@ -93,15 +93,15 @@ TEST_CASE("geodesic disk: what is enclosed and smaller is filled, what is no dis
     CHECK(std::binary_search(r.vertices.begin(), r.vertices.end(), 0)); // the tip
 
     const auto torus = test::torus(24, false);
-    CHECK(fault_of([&] { geodesic_disk(torus, 0, 4.0); }) == region_fault::several_boundaries);
-    CHECK(fault_of([&] { geodesic_disk(torus, 0, 100.0); }) == region_fault::no_boundary);
-    CHECK(fault_of([&] { geodesic_disk(torus, 0, 1e-9); }) == region_fault::empty);
-    CHECK(fault_of([&] { geodesic_disk(torus, -1, 1.0); }) == region_fault::out_of_range);
-    CHECK(fault_of([&] { geodesic_disk(torus, 24 * 24, 1.0); }) == region_fault::out_of_range);
+    CHECK(fault_of([&] { geodesic_disk(torus, 0, 4.0); }) == region_error::several_boundaries);
+    CHECK(fault_of([&] { geodesic_disk(torus, 0, 100.0); }) == region_error::no_boundary);
+    CHECK(fault_of([&] { geodesic_disk(torus, 0, 1e-9); }) == region_error::empty);
+    CHECK(fault_of([&] { geodesic_disk(torus, -1, 1.0); }) == region_error::out_of_range);
+    CHECK(fault_of([&] { geodesic_disk(torus, 24 * 24, 1.0); }) == region_error::out_of_range);
     CHECK_THROWS_AS(geodesic_disk(torus, 0, 0.0), parameter_error);
     std::vector<taut::idx> all_but_one(std::size_t(torus.cell_count()) - 1);
     std::iota(all_but_one.begin(), all_but_one.end(), 0);
-    CHECK(fault_of([&] { region_of_faces(torus, all_but_one); }) == region_fault::handles);
+    CHECK(fault_of([&] { region_of_faces(torus, all_but_one); }) == region_error::handles);
     CHECK_THROWS_AS(geodesic_disk(test::three_on_an_edge(), 0, 2.0), mesh_error);
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("region of faces: triangles that are oriented differently are named, b
     }
     catch (const mesh_error& e)
     {
-        CHECK(e.fault() == mesh_fault::inconsistent_orientation);
+        CHECK(e.fault() == mesh_error::inconsistent_orientation);
         REQUIRE(e.ids().size() == 2);
         CHECK((e.ids()[0] == 9) != (e.ids()[1] == 9));
         for (const taut::idx f : e.ids())
@@ -142,14 +142,14 @@ TEST_CASE("region of faces: taken as they are, refused with what is wrong")
     CHECK(square.rim.size() == 12);
 
     const auto refused = [&](const auto& in) { return fault_of([&] { region_of_faces(m, faces_of_quads(n, in)); }); };
-    CHECK(refused([](int, int) { return false; }) == region_fault::empty);
-    CHECK(refused([](int i, int) { return i == 0 || i == 3; }) == region_fault::several_components);
+    CHECK(refused([](int, int) { return false; }) == region_error::empty);
+    CHECK(refused([](int i, int) { return i == 0 || i == 3; }) == region_error::several_components);
     CHECK(refused([](int i, int j) { return i > 1 && i < 5 && j > 1 && j < 5 && (i != 3 || j != 3); }) ==
-          region_fault::several_boundaries);
-    CHECK(fault_of([&] { region_of_faces(m, std::array<taut::idx, 1>{2 * n * n}); }) == region_fault::out_of_range);
+          region_error::several_boundaries);
+    CHECK(fault_of([&] { region_of_faces(m, std::array<taut::idx, 1>{2 * n * n}); }) == region_error::out_of_range);
     CHECK(refused([](int i, int j) // a ring with a quad missing, whose ends touch at a vertex
                   { return i > 1 && i < 5 && j > 1 && j < 5 && (i != 3 || j != 3) && (i != 2 || j != 2); }) ==
-          region_fault::pinched);
+          region_error::pinched);
 }
 
 TEST_CASE("region inside a loop: to its left")
@@ -164,13 +164,13 @@ TEST_CASE("region inside a loop: to its left")
     for (int j = 5; j > 2; --j) loop.push_back(at(2, j));
     CHECK(region_inside(m, loop).faces.size() == 18);
     std::reverse(loop.begin(), loop.end()); // the other side is a ring
-    CHECK(fault_of([&] { region_inside(m, loop); }) == region_fault::several_boundaries);
+    CHECK(fault_of([&] { region_inside(m, loop); }) == region_error::several_boundaries);
     loop.pop_back();
-    CHECK(fault_of([&] { region_inside(m, loop); }) == region_fault::not_a_loop);
+    CHECK(fault_of([&] { region_inside(m, loop); }) == region_error::not_a_loop);
     // A loop around a torus does not part it.
     const auto torus = test::torus(6, false);
     CHECK(fault_of(
               [&] {
                   region_inside(torus, std::array<taut::idx, 6>{0, 1, 2, 3, 4, 5});
-              }) == region_fault::not_a_loop);
+              }) == region_error::not_a_loop);
 }

@@ -84,10 +84,10 @@ TEST_CASE("read_surface: an empty file is an empty mesh, a file with NaN names t
             return e.fault();
         }
         FAIL("no error");
-        return mesh_fault::handles;
+        return mesh_error::handles;
     };
-    CHECK(fault("empty.obj") == mesh_fault::empty);
-    CHECK(fault("nan.obj") == mesh_fault::non_finite);
+    CHECK(fault("empty.obj") == mesh_error::empty);
+    CHECK(fault("nan.obj") == mesh_error::non_finite);
 }
 
 TEST_CASE("write_obj: order, every coordinate and every texture coordinate come back bit for bit")

@@ -50,7 +50,7 @@ mesh_error mesh_error_of(const std::string& text)
         return e;
     }
     FAIL("no mesh_error for: " << text);
-    return mesh_error(mesh_fault::empty, {}, "");
+    return mesh_error(mesh_error::empty, {}, "");
 }
 
 } // namespace
@@ -131,7 +131,7 @@ TEST_CASE("obj: digits beyond the range of numbers")
     CHECK(x_of("0e99999") == 0);
     for (const std::string& large : {'1' + zeros + "e-5", '-' + ('1' + zeros), "0." + zeros + "1e999",
                                      std::string("1e99999999999999999999"), std::string("4e9223372036854775807")})
-        CHECK(mesh_error_of("v " + large + " 0 0\n").fault() == mesh_fault::non_finite);
+        CHECK(mesh_error_of("v " + large + " 0 0\n").fault() == mesh_error::non_finite);
 }
 
 TEST_CASE("obj: numbers are read to the last bit, at any magnitude")
@@ -302,7 +302,7 @@ TEST_CASE("obj: a coordinate that is no finite number names vertex and line")
     for (const char* bad : {"nan", "inf", "-inf", "NaN", "1e999", "-nan", "1.#INF", "-1.#IND00", "1.#QNAN", "-1.#J"})
     {
         const auto e = mesh_error_of("v 0 0 0\n# gap\nv 1 " + std::string(bad) + " 0\n");
-        CHECK(e.fault() == mesh_fault::non_finite);
+        CHECK(e.fault() == mesh_error::non_finite);
         CHECK(e.ids() == std::vector<taut::idx>{1});
         CHECK(contains(e.what(), "x.obj, line 3: vertex 1"));
     }
@@ -311,7 +311,7 @@ TEST_CASE("obj: a coordinate that is no finite number names vertex and line")
 TEST_CASE("obj: a face that names a missing vertex is found with its line")
 {
     const auto e = mesh_error_of(square + "f 1 2 3\nf 1 2 7\nf 1 3 4\n");
-    CHECK(e.fault() == mesh_fault::index_out_of_range);
+    CHECK(e.fault() == mesh_error::index_out_of_range);
     CHECK(e.ids() == std::vector<taut::idx>{1, 6});
     CHECK(contains(e.what(), "x.obj, line 6"));
 }
@@ -357,11 +357,11 @@ TEST_CASE("obj: texture coordinates that cannot be used are none, and the file s
 
 TEST_CASE("obj: nothing to read is an empty mesh; other faults of meshes name the file")
 {
-    CHECK(mesh_error_of("").fault() == mesh_fault::empty);
-    CHECK(mesh_error_of("# nothing\n").fault() == mesh_fault::empty);
-    CHECK(mesh_error_of(square).fault() == mesh_fault::empty);
+    CHECK(mesh_error_of("").fault() == mesh_error::empty);
+    CHECK(mesh_error_of("# nothing\n").fault() == mesh_error::empty);
+    CHECK(mesh_error_of(square).fault() == mesh_error::empty);
     const auto e = mesh_error_of(square + "f 1 1 2\n");
-    CHECK(e.fault() == mesh_fault::repeated_vertex);
+    CHECK(e.fault() == mesh_error::repeated_vertex);
     CHECK(e.ids() == std::vector<taut::idx>{0});
     CHECK(contains(e.what(), "x.obj"));
 }

@@ -116,7 +116,7 @@ TEST_CASE("off: vertices that are missing or not finite are faults of the mesh")
     }
     catch (const mesh_error& e)
     {
-        CHECK(e.fault() == mesh_fault::index_out_of_range);
+        CHECK(e.fault() == mesh_error::index_out_of_range);
         CHECK(e.ids() == std::vector<taut::idx>{0, 3});
         CHECK(std::string(e.what()).find("line 6") != std::string::npos);
     }

@@ -235,12 +235,12 @@ TEST_CASE("ply: vertices that are missing or not finite are faults of the mesh, 
             return e.fault();
         }
         FAIL("no mesh_error");
-        return mesh_fault::handles;
+        return mesh_error::handles;
     };
-    CHECK(fault(ascii_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") == mesh_fault::index_out_of_range);
-    CHECK(fault(ascii_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n") == mesh_fault::index_out_of_range);
-    CHECK(fault(ascii_head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n") == mesh_fault::non_finite);
-    CHECK(fault("ply\nformat ascii 1.0\nend_header\n") == mesh_fault::empty);
+    CHECK(fault(ascii_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n") == mesh_error::index_out_of_range);
+    CHECK(fault(ascii_head + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n") == mesh_error::index_out_of_range);
+    CHECK(fault(ascii_head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n") == mesh_error::non_finite);
+    CHECK(fault("ply\nformat ascii 1.0\nend_header\n") == mesh_error::empty);
 }
 
 TEST_CASE("ply: faces may stand before the vertices, and name only what follows")

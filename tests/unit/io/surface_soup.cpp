@@ -55,7 +55,7 @@ TEST_CASE("soup: what a mesh refuses stays, and the first fault is named with it
     CHECK(obj.points.size() == 3);
     CHECK(obj.triangles == cells_of_soup{{0, 1, 2}, {0, 0, 1}, {0, 1, 8}, {-1, 0, -1}});
     REQUIRE(obj.fault.has_value());
-    CHECK(obj.fault->fault() == mesh_fault::non_finite);
+    CHECK(obj.fault->fault() == mesh_error::non_finite);
     CHECK(std::string(obj.fault->what()).starts_with("a.obj, line 2: vertex 1 has"));
 
     const auto off = io::impl::parse_off_soup("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 inf\n3 0 1 2\n3 0 7 -2\n", "a.off");
@@ -68,7 +68,7 @@ TEST_CASE("soup: what a mesh refuses stays, and the first fault is named with it
                                  "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                                  "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n");
     CHECK(ply.triangles == cells_of_soup{{0, 1, -1}});
-    CHECK(ply.fault->fault() == mesh_fault::index_out_of_range);
+    CHECK(ply.fault->fault() == mesh_error::index_out_of_range);
 }
 
 TEST_CASE("soup: texture coordinates that are not there are none")
@@ -86,7 +86,7 @@ TEST_CASE("soup: a face of one or two corners is a triangle that names a vertex 
     CHECK(soup.faces.sizes == std::vector<taut::idx>{3, 2, 1, 0, 3});
     CHECK(soup.faces.corner(3, 0) == 6);
     REQUIRE(soup.fault.has_value());
-    CHECK(soup.fault->fault() == mesh_fault::repeated_vertex);
+    CHECK(soup.fault->fault() == mesh_error::repeated_vertex);
     CHECK(std::string(soup.fault->what()) == "a.obj, line 6: a face needs three corners or more");
     CHECK(soup.notes == std::vector<std::string>{"1 face without corners left out"});
     CHECK(io::impl::parse_off_soup("OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n2 0 1\n").triangles ==

@@ -59,7 +59,7 @@ TEST_CASE_TEMPLATE("arrays: every width of index counts, and what is out of rang
         }
         catch (const mesh_error& e)
         {
-            CHECK(e.fault() == mesh_fault::index_out_of_range);
+            CHECK(e.fault() == mesh_error::index_out_of_range);
             CHECK(e.ids().front() == 1);
         }
     }

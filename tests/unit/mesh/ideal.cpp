@@ -205,7 +205,7 @@ TEST_CASE("ideal: cells without one are all named")
     }
     catch (const mesh_error& e)
     {
-        CHECK(e.fault() == mesh_fault::degenerate_cell);
+        CHECK(e.fault() == mesh_error::degenerate_cell);
         CHECK(e.ids() == std::vector<taut::idx>{0, 2});
     }
     auto cells = test::cube(1).cells();
@@ -217,7 +217,7 @@ TEST_CASE("ideal: cells without one are all named")
     }
     catch (const mesh_error& e)
     {
-        CHECK(e.fault() == mesh_fault::inverted_cell);
+        CHECK(e.fault() == mesh_error::inverted_cell);
         CHECK(e.ids() == std::vector<taut::idx>{3});
     }
 }

@@ -28,7 +28,7 @@ mesh_error error_of(std::vector<vec3> points, cells3 cells)
         return e;
     }
     FAIL("no error");
-    return mesh_error(mesh_fault::empty, {}, "");
+    return mesh_error(mesh_error::empty, {}, "");
 }
 
 bool contains(const mesh_error& e, const std::string& part)
@@ -50,14 +50,14 @@ TEST_CASE("mesh: keeps points, cells and their order")
 
 TEST_CASE("mesh: no cells is an error")
 {
-    CHECK(error_of({}, {}).fault() == mesh_fault::empty);
-    CHECK(error_of(square, {}).fault() == mesh_fault::empty);
+    CHECK(error_of({}, {}).fault() == mesh_error::empty);
+    CHECK(error_of(square, {}).fault() == mesh_error::empty);
 }
 
 TEST_CASE("mesh: an index out of range is named with its cell")
 {
     const auto high = error_of(square, {{0, 1, 2}, {0, 2, 4}});
-    CHECK(high.fault() == mesh_fault::index_out_of_range);
+    CHECK(high.fault() == mesh_error::index_out_of_range);
     CHECK(high.ids() == std::vector<taut::idx>{1, 4});
     CHECK(contains(high, "triangle 1: vertex 4 >= 4"));
     const auto low = error_of(square, {{0, -1, 2}});
@@ -71,7 +71,7 @@ TEST_CASE("mesh: every vertex with a coordinate that is not finite is named")
     points[1].y = std::numeric_limits<double>::quiet_NaN();
     points[3].z = -std::numeric_limits<double>::infinity();
     const auto e = error_of(points, {{0, 1, 2}});
-    CHECK(e.fault() == mesh_fault::non_finite);
+    CHECK(e.fault() == mesh_error::non_finite);
     CHECK(e.ids() == std::vector<taut::idx>{1, 3});
     CHECK(contains(e, "2 vertices (1, 3)"));
 }
@@ -79,7 +79,7 @@ TEST_CASE("mesh: every vertex with a coordinate that is not finite is named")
 TEST_CASE("mesh: cells that repeat a vertex are named")
 {
     const auto e = error_of(square, {{0, 1, 2}, {0, 2, 2}, {1, 3, 1}});
-    CHECK(e.fault() == mesh_fault::repeated_vertex);
+    CHECK(e.fault() == mesh_error::repeated_vertex);
     CHECK(e.ids() == std::vector<taut::idx>{1, 2});
 }
 

@@ -16,9 +16,9 @@ using taut::test::contains;
 using namespace taut;
 using taut::idx;
 
-std::vector<mesh_fault> faults(const std::vector<taut::impl::mesh_finding>& found)
+std::vector<mesh_error::fault_type> faults(const std::vector<taut::impl::mesh_finding>& found)
 {
-    std::vector<mesh_fault> r;
+    std::vector<mesh_error::fault_type> r;
     for (const auto& f : found) r.push_back(f.fault);
     return r;
 }
@@ -58,7 +58,7 @@ TEST_CASE("validate: throws the first finding with fault, ids and remedy")
     }
     catch (const mesh_error& e)
     {
-        CHECK(e.fault() == mesh_fault::closed_surface);
+        CHECK(e.fault() == mesh_error::closed_surface);
         CHECK(e.ids().empty());
         CHECK(contains(e.what(), "cut it open along a seam"));
     }
@@ -75,7 +75,7 @@ TEST_CASE("validate: flat triangles are named, slivers pass")
     for (const double h : {0.0, 1e-15})
     {
         const auto f = only_finding(with_height(h));
-        CHECK(f.fault == mesh_fault::degenerate_cell);
+        CHECK(f.fault == mesh_error::degenerate_cell);
         CHECK(f.ids == ids{0});
     }
     // Two vertices at one place.
@@ -105,19 +105,19 @@ TEST_CASE("validate: duplicate triangles are named in pairs")
             cells.push_back({c[turn], c[(turn + 1) % 3], c[(turn + 2) % 3]});
             const auto found = check(mesh<triangle>(test::grid(3, 3).points(), cells));
             REQUIRE(!found.empty());
-            CHECK(found[0].fault == mesh_fault::duplicate_cell);
+            CHECK(found[0].fault == mesh_error::duplicate_cell);
             CHECK(found[0].ids == ids{original, 18});
         }
 
     // A pillow: the copy is turned over, and every edge looks as it should.
     const auto pillow = check(mesh<triangle>(test::single_triangle().points(), {{0, 1, 2}, {0, 2, 1}}));
     REQUIRE(!pillow.empty());
-    CHECK(pillow[0].fault == mesh_fault::duplicate_cell);
+    CHECK(pillow[0].fault == mesh_error::duplicate_cell);
     CHECK(pillow[0].ids == ids{0, 1});
 
     // The copy of a lone triangle clashes on every edge, but it is a duplicate.
     const auto twice = check(mesh<triangle>(test::single_triangle().points(), {{0, 1, 2}, {1, 2, 0}}));
-    CHECK(faults(twice) == std::vector{mesh_fault::duplicate_cell});
+    CHECK(faults(twice) == std::vector{mesh_error::duplicate_cell});
 }
 
 TEST_CASE("validate: triangles that are turned over are named in pairs")
@@ -125,7 +125,7 @@ TEST_CASE("validate: triangles that are turned over are named in pairs")
     auto cells = test::grid(3, 3).cells();
     std::swap(cells[0][0], cells[0][1]); // a corner triangle with one neighbour
     const auto f = only_finding(mesh<triangle>(test::grid(3, 3).points(), cells));
-    CHECK(f.fault == mesh_fault::inconsistent_orientation);
+    CHECK(f.fault == mesh_error::inconsistent_orientation);
     REQUIRE(!f.ids.empty());
     CHECK(f.ids.size() % 2 == 0);
     CHECK(std::find(f.ids.begin(), f.ids.end(), 0) != f.ids.end());
@@ -135,7 +135,7 @@ TEST_CASE("validate: triangles that are turned over are named in pairs")
 TEST_CASE("validate: a Moebius strip cannot be oriented")
 {
     const auto f = only_finding(test::moebius(8));
-    CHECK(f.fault == mesh_fault::not_orientable);
+    CHECK(f.fault == mesh_error::not_orientable);
     CHECK(f.ids.size() == 2);
     CHECK(contains(f.message, "cut the mesh open"));
 }
@@ -143,7 +143,7 @@ TEST_CASE("validate: a Moebius strip cannot be oriented")
 TEST_CASE("validate: an edge with three triangles is named by its vertices")
 {
     const auto f = only_finding(test::three_on_an_edge());
-    CHECK(f.fault == mesh_fault::non_manifold_facet);
+    CHECK(f.fault == mesh_error::non_manifold_facet);
     REQUIRE(f.ids.size() == 2);
     CHECK(std::min(f.ids[0], f.ids[1]) == 0);
     CHECK(std::max(f.ids[0], f.ids[1]) == 1);
@@ -153,7 +153,7 @@ TEST_CASE("validate: an edge with three triangles is named by its vertices")
 TEST_CASE("validate: a vertex where two parts touch is named")
 {
     const auto f = only_finding(test::bowtie());
-    CHECK(f.fault == mesh_fault::non_manifold_vertex);
+    CHECK(f.fault == mesh_error::non_manifold_vertex);
     CHECK(f.ids == ids{2});
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("validate: unreferenced vertices are named, and may be allowed")
         for (auto& v : t) ++v;
     const mesh<triangle> m(points, cells);
     const auto f = only_finding(m);
-    CHECK(f.fault == mesh_fault::unreferenced_vertex);
+    CHECK(f.fault == mesh_error::unreferenced_vertex);
     CHECK(f.ids == ids{0, 10});
     CHECK_NOTHROW(validate(m, {.referenced = false}));
 }
@@ -175,7 +175,7 @@ TEST_CASE("validate: unreferenced vertices are named, and may be allowed")
 TEST_CASE("validate: several components are named by a vertex of each")
 {
     const auto f = only_finding(test::two_components());
-    CHECK(f.fault == mesh_fault::several_components);
+    CHECK(f.fault == mesh_error::several_components);
     CHECK(f.ids == ids{0, 9});
     CHECK(check(test::two_components(), {.connected = false}).empty());
 }
@@ -183,18 +183,18 @@ TEST_CASE("validate: several components are named by a vertex of each")
 TEST_CASE("validate: several boundary loops are named by a vertex of each")
 {
     const auto f = only_finding(test::annulus(6));
-    CHECK(f.fault == mesh_fault::several_boundaries);
+    CHECK(f.fault == mesh_error::several_boundaries);
     CHECK(f.ids == ids{0, 1});
     CHECK(check(test::annulus(6), {.one_boundary = false}).empty());
 }
 
 TEST_CASE("validate: a closed surface and a handle are not a disk")
 {
-    CHECK(only_finding(test::octahedron()).fault == mesh_fault::closed_surface);
+    CHECK(only_finding(test::octahedron()).fault == mesh_error::closed_surface);
     CHECK(check(test::octahedron(), {.open = false}).empty());
-    CHECK(only_finding(test::torus(5, true)).fault == mesh_fault::handles);
+    CHECK(only_finding(test::torus(5, true)).fault == mesh_error::handles);
     CHECK(check(test::torus(5, true), {.no_handles = false}).empty());
-    CHECK(faults(check(test::torus(5, false))) == std::vector{mesh_fault::closed_surface, mesh_fault::handles});
+    CHECK(faults(check(test::torus(5, false))) == std::vector{mesh_error::closed_surface, mesh_error::handles});
 }
 
 TEST_CASE("check: several faults are all found")
@@ -207,8 +207,8 @@ TEST_CASE("check: several faults are all found")
     points.insert(points.end(), {{5, 5, 5}, {6, 0, 0}, {7, 0, 0}, {6, 1, 0}});
     cells.push_back({10, 11, 12});
     const auto found = check(mesh<triangle>(points, cells));
-    CHECK(faults(found) == std::vector{mesh_fault::degenerate_cell, mesh_fault::inconsistent_orientation,
-                                       mesh_fault::unreferenced_vertex, mesh_fault::several_components});
+    CHECK(faults(found) == std::vector{mesh_error::degenerate_cell, mesh_error::inconsistent_orientation,
+                                       mesh_error::unreferenced_vertex, mesh_error::several_components});
 }
 
 TEST_CASE("validate: volumes pass, and inverted, flat or touching tetrahedra are named")
@@ -220,23 +220,23 @@ TEST_CASE("validate: volumes pass, and inverted, flat or touching tetrahedra are
     std::swap(cells[5][0], cells[5][1]);
     const auto found = check(mesh<tetrahedron>(test::cube(2).points(), cells));
     REQUIRE(found.size() == 2);
-    CHECK(found[0].fault == mesh_fault::inverted_cell);
+    CHECK(found[0].fault == mesh_error::inverted_cell);
     CHECK(found[0].ids == ids{5});
-    CHECK(found[1].fault == mesh_fault::inconsistent_orientation);
+    CHECK(found[1].fault == mesh_error::inconsistent_orientation);
 
     const auto flat = only_finding(mesh<tetrahedron>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2, 3}}));
-    CHECK(flat.fault == mesh_fault::degenerate_cell);
+    CHECK(flat.fault == mesh_error::degenerate_cell);
 
     // Two tetrahedra on a common edge are not a solid.
     const auto hinge = only_finding(mesh<tetrahedron>(
         {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0.5, 0.5, 0}, {-1, 0, 0}, {-0.5, -0.5, 0}}, {{0, 2, 3, 1}, {0, 4, 5, 1}}));
-    CHECK(hinge.fault == mesh_fault::non_manifold_vertex);
+    CHECK(hinge.fault == mesh_error::non_manifold_vertex);
     CHECK(hinge.ids == ids{0, 1});
 
     // Three tetrahedra on a face.
     const auto crowd = check(mesh<tetrahedron>({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {0.3, 0.3, 2}},
                                                {{0, 1, 2, 3}, {0, 2, 1, 4}, {0, 1, 2, 5}}));
-    CHECK(faults(crowd) == std::vector{mesh_fault::non_manifold_facet});
+    CHECK(faults(crowd) == std::vector{mesh_error::non_manifold_facet});
     CHECK(crowd[0].ids.size() == 3);
 }
 

@@ -147,16 +147,16 @@ TEST_CASE("chart overlaps: what is no set of charts is refused with its numbers"
         {
             return std::pair(e.fault(), e.ids());
         }
-        return std::pair(taut::packing_fault::no_room, std::vector<idx>{-1});
+        return std::pair(taut::packing_error::no_room, std::vector<idx>{-1});
     };
     auto broken = s;
     broken.uv[12].y = std::nan("");
-    CHECK(fault_of(broken) == std::pair(taut::packing_fault::not_finite, std::vector<idx>{12}));
+    CHECK(fault_of(broken) == std::pair(taut::packing_error::not_finite, std::vector<idx>{12}));
     broken = s;
     broken.cells[9][1] = 3; // of the first chart
-    CHECK(fault_of(broken) == std::pair(taut::packing_fault::out_of_range, std::vector<idx>{9}));
+    CHECK(fault_of(broken) == std::pair(taut::packing_error::out_of_range, std::vector<idx>{9}));
     broken = s;
     broken.first_cell = {0, 8, 8, 16};
     broken.first_vertex = {0, 9, 9, 18};
-    CHECK(fault_of(broken) == std::pair(taut::packing_fault::no_triangle, std::vector<idx>{1}));
+    CHECK(fault_of(broken) == std::pair(taut::packing_error::no_triangle, std::vector<idx>{1}));
 }

@@ -306,13 +306,13 @@ TEST_CASE("pack: refuses what has no area or no room, and takes nothing for noth
         {
             return e.fault();
         }
-        return taut::packing_fault::out_of_range;
+        return taut::packing_error::out_of_range;
     };
-    CHECK(fault_of(s, {}) == taut::packing_fault::no_area);
+    CHECK(fault_of(s, {}) == taut::packing_error::no_area);
     taut::pack_params params;
     params.resolution = 64;
     params.padding = 16;
-    CHECK(fault_of(squares(9), params) == taut::packing_fault::no_room);
+    CHECK(fault_of(squares(9), params) == taut::packing_error::no_room);
     params.tiles = 9;
     CHECK(holds(squares(9), packed(squares(9), params), params));
     params.padding = 32;

@@ -441,7 +441,7 @@ struct with_elimination : decltype(rosenbrock(2))
 TEST_CASE("newton: goes on from where parts were minimised by themselves")
 {
     const std::size_t n = 8;
-    const newton_common_params common{.stopping = {.gradient_tolerance = 1e-10, .max_iterations = 200}};
+    const descent_params common{.stopping = {.gradient_tolerance = 1e-10, .max_iterations = 200}};
     const auto run = [&](with_elimination& f, newton_params how, std::vector<double> x)
     { return newton(f, x, how, common); };
     const std::vector<double> x(n, -1.2);
@@ -489,7 +489,7 @@ TEST_CASE("newton: limits, the observer and bad parameters end a run as in the o
     CHECK(newton(f, x, {}, {}, [](const taut::progress& p) { return p.iteration < 2; }).stop == stop::user);
     std::vector<double> bad{std::numeric_limits<double>::infinity(), 0.0};
     CHECK(newton(f, bad).stop == stop::not_finite_start);
-    CHECK_THROWS_AS(newton(f, x, {}, {.search = {.sufficient_decrease = 0.5}}), taut::parameter_error);
+    CHECK_THROWS_AS(newton(f, x, {}, {.line_search = {.wolfe = {.sufficient_decrease = 0.5}}}), taut::parameter_error);
     CHECK_THROWS_AS(newton(f, x, {.pcg = {.block = 9}}), taut::parameter_error);
     CHECK_THROWS_AS(newton(f, x, {.exact_below = 1}), taut::parameter_error);
 }

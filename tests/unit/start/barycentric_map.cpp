@@ -204,13 +204,13 @@ TEST_CASE("barycentric map: surfaces that are no disk are refused with their fau
             return e.fault();
         }
         FAIL("no error");
-        return taut::mesh_fault::empty;
+        return taut::mesh_error::empty;
     };
-    CHECK(fault(taut::test::octahedron()) == taut::mesh_fault::closed_surface);
-    CHECK(fault(taut::test::torus(5, true)) == taut::mesh_fault::handles);
-    CHECK(fault(taut::test::two_components()) == taut::mesh_fault::several_components);
-    CHECK(fault(taut::test::bowtie()) == taut::mesh_fault::non_manifold_vertex);
-    CHECK(fault(taut::test::three_on_an_edge()) == taut::mesh_fault::non_manifold_facet);
+    CHECK(fault(taut::test::octahedron()) == taut::mesh_error::closed_surface);
+    CHECK(fault(taut::test::torus(5, true)) == taut::mesh_error::handles);
+    CHECK(fault(taut::test::two_components()) == taut::mesh_error::several_components);
+    CHECK(fault(taut::test::bowtie()) == taut::mesh_error::non_manifold_vertex);
+    CHECK(fault(taut::test::three_on_an_edge()) == taut::mesh_error::non_manifold_facet);
 }
 
 TEST_CASE("barycentric map: a user's solver is asked, and its flaws are reported")

@@ -34,7 +34,7 @@ struct atlas_params
     chart_preference prefer = chart_preference::seams;
 
     /// Where seams are liked. Not of charts that are kept; weights are not for `symmetric`.
-    seam_wishes wishes = {};
+    impl::seam_wishes wishes = {};
 
     /// True if the charts are those separated by `charts.seams`: they are flattened, from `initial` if it is given, and
     /// packed.
@@ -65,8 +65,7 @@ struct atlas_params
     /// the first one's map. They do not count as overlaps.
     bool stack = false;
 
-    flatten_params flattening = {}; ///< its limits and initial map are overruled
-    pack_params packing = {};       ///< the same
+    pack_params packing = {}; ///< its limits are overruled
 
     /// Lower left corner of the first tile, integers. {0, -1} is for files whose v runs downwards: their coordinates
     /// are (u, -v), which is exact where 1 - v is not.

@@ -88,7 +88,7 @@ protected:
     /// Maps all charts, in `steps` each at most. exactly: nearly to the limit of rounding, so that what can be flat is.
     flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps, bool exactly = false)
     {
-        auto params = params_.flattening;
+        flatten_params params;
         if (exactly) params.tolerance = std::min(params.tolerance, 1e-9);
         params.max_iterations = std::min(params.max_iterations, steps);
         params.initial = initial;
@@ -457,8 +457,7 @@ protected:
         for (std::size_t c = 0; c < parted.size(); ++c)
             if (label(c) >= 0) triangles.push_back(static_cast<idx>(c));
         const surface_part part = part_of(mesh_, triangles, seam_, number);
-        flatten_params few = params_.flattening;
-        few.initial = {};
+        flatten_params few;
         few.max_iterations = report_.complete ? few.max_iterations : 0; // their starts are made at once
         auto maps = flatten_charts(queue_, part.charts, few);
         const ideal_elements<triangle> ideal(part.charts.surface);

@@ -412,8 +412,8 @@ atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
     {
         atlas_params of_scaled = params;
         of_scaled.packing.texels_per_unit /= unit;
-        atlas made = make_atlas(q, scaled(m, unit), of_scaled);
-        made.charts.surface = scaled(made.charts.surface, 1 / unit);
+        atlas made = make_atlas(q, impl::scaled(m, unit), of_scaled);
+        made.charts.surface = impl::scaled(made.charts.surface, 1 / unit);
         made.layout.scale *= unit;
         for (auto& place : made.layout.places) place.scale *= unit;
         made.report.seam_length /= unit;

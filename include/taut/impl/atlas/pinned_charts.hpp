@@ -186,7 +186,7 @@ private:
     [[noreturn]] void refuse(idx chart, const std::string& why) const
     {
         const idx c = first_triangle(chart);
-        throw packing_error(packing_fault::pinned, {c},
+        throw packing_error(packing_error::pinned, {c},
                             "the pinned chart of triangle " + std::to_string(c) + ' ' + why + "; do not pin it");
     }
 

@@ -18,11 +18,6 @@ template <class T>
 concept device_scalar = std::same_as<T, float> || std::same_as<T, double> ||
     (std::integral<T> && !std::same_as<T, bool> && (sizeof(T) == 4 || sizeof(T) == 8));
 
-} // namespace taut::impl
-
-namespace taut::impl
-{
-
 /// The OpenCL C name of a device scalar.
 template <device_scalar T>
 constexpr const char* cl_name()

@@ -18,7 +18,7 @@ namespace taut::impl
 inline std::vector<vec2> along_polygon(std::span<const vec2> polygon, std::span<const double> lengths)
 {
     const auto refuse = [](const char* why)
-    { throw constraint_error(constraint_fault::bad_polygon, {}, std::string("the polygon ") + why); };
+    { throw constraint_error(constraint_error::bad_polygon, {}, std::string("the polygon ") + why); };
     if (polygon.size() < 3) refuse("has fewer than three corners; give it at least three");
     const std::size_t n = polygon.size();
     std::vector<double> upto(n + 1, 0.0); // length of the polygon before each corner

@@ -135,7 +135,7 @@ public:
         {
             const auto start = std::find(loop.begin(), loop.end(), first);
             if (start == loop.end())
-                throw constraint_error(constraint_fault::out_of_range, {first},
+                throw constraint_error(constraint_error::out_of_range, {first},
                                        "vertex " + std::to_string(first) +
                                            " is not on the boundary; start at one of its vertices");
             std::rotate(loop.begin(), start, loop.end());
@@ -189,13 +189,13 @@ public:
     constraints& spring(idx v, const point& x, double weight)
     {
         require_vertices(std::array{v});
-        if (!finite(x, all)) impl::refuse_vertices(constraint_fault::not_finite, {v}, not_finite_);
+        if (!finite(x, all)) impl::refuse_vertices(constraint_error::not_finite, {v}, not_finite_);
         if (!(weight >= 0) || !std::isfinite(weight))
-            impl::refuse_vertices(constraint_fault::bad_weight, {v},
+            impl::refuse_vertices(constraint_error::bad_weight, {v},
                                   "with a spring whose weight is negative or not finite; give a finite one >= 0");
-        if (held(v) == all) impl::refuse_vertices(constraint_fault::idle_spring, {v}, idle_spring_);
+        if (held(v) == all) impl::refuse_vertices(constraint_error::idle_spring, {v}, idle_spring_);
         if (!springs_.try_emplace(v, taut::spring<D>{v, x, weight}).second)
-            impl::refuse_vertices(constraint_fault::duplicate, {v}, "with a second spring; leave one out");
+            impl::refuse_vertices(constraint_error::duplicate, {v}, "with a second spring; leave one out");
         return *this;
     }
 
@@ -209,7 +209,7 @@ public:
             if (!finite(pin.value * unit, pin.held)) far.push_back(v);
         for (const auto& [v, s] : springs_)
             if (!finite(s.target * unit, all)) far.push_back(v);
-        impl::refuse_vertices(constraint_fault::not_finite, std::move(far),
+        impl::refuse_vertices(constraint_error::not_finite, std::move(far),
                               "with a target that is too far away for the size of the mesh; give a nearer one");
     }
 
@@ -225,7 +225,7 @@ public:
         for (const auto& [v, s] : springs_)
             if (is_unused(v) && !pins_.contains(v)) bad.push_back(v);
         std::sort(bad.begin(), bad.end());
-        impl::refuse_vertices(constraint_fault::unused_vertex, std::move(bad),
+        impl::refuse_vertices(constraint_error::unused_vertex, std::move(bad),
                               std::string("pinned that no ") + Element::name +
                                   " uses, so that nothing follows; pin others, or leave the pins out");
     }
@@ -297,14 +297,14 @@ private:
         std::vector<idx> bad;
         for (const idx v : vertices)
             if (v < 0 || static_cast<std::size_t>(v) >= count()) bad.push_back(v);
-        impl::refuse_vertices(constraint_fault::out_of_range, std::move(bad),
+        impl::refuse_vertices(constraint_error::out_of_range, std::move(bad),
                               "that the mesh does not have; it has " + std::to_string(count()) + ", counted from 0");
     }
 
     static void require_coordinate(idx v, int k)
     {
         if (k < 0 || k >= D)
-            throw constraint_error(constraint_fault::no_coordinate, {v},
+            throw constraint_error(constraint_error::no_coordinate, {v},
                                    "vertex " + std::to_string(v) + " has no coordinate " + std::to_string(k) +
                                        "; they count from 0 to " + std::to_string(D - 1));
     }
@@ -312,7 +312,7 @@ private:
     static void require_count(const char* what, std::size_t wanted, std::size_t given)
     {
         if (wanted != given)
-            throw constraint_error(constraint_fault::wrong_count, {},
+            throw constraint_error(constraint_error::wrong_count, {},
                                    std::to_string(given) + " positions; give one " + what + ": " +
                                        std::to_string(wanted));
     }
@@ -322,7 +322,7 @@ private:
         if constexpr (D == 2)
             if (mesh_ &&
                 std::any_of(mesh_->points().begin(), mesh_->points().end(), [](const vec3& p) { return p.z != 0; }))
-                throw constraint_error(constraint_fault::no_position, {},
+                throw constraint_error(constraint_error::no_position, {},
                                        "a surface in space has no place in the plane yet; give the map, too");
     }
 
@@ -330,12 +330,12 @@ private:
     {
         if (!mesh_) return {};
         auto loops = boundary_loops(*mesh_);
-        if (loops.empty()) throw mesh_error(describe<Element>(mesh_fault::closed_surface, {}));
+        if (loops.empty()) throw mesh_error(impl::describe<Element>(mesh_error::closed_surface, {}));
         if (loops.size() > 1)
         {
             std::vector<idx> first;
             for (const auto& loop : loops) first.push_back(loop[0]);
-            throw mesh_error(describe<Element>(mesh_fault::several_boundaries, std::move(first)));
+            throw mesh_error(impl::describe<Element>(mesh_error::several_boundaries, std::move(first)));
         }
         return std::move(loops.front());
     }
@@ -370,12 +370,12 @@ private:
             if (again) (differs ? contradictory : duplicate).push_back(v);
             if (p.held == all && springs_.contains(v)) idle.push_back(v);
         }
-        impl::refuse_vertices(constraint_fault::not_finite, std::move(not_finite), not_finite_);
-        impl::refuse_vertices(constraint_fault::contradictory, std::move(contradictory),
+        impl::refuse_vertices(constraint_error::not_finite, std::move(not_finite), not_finite_);
+        impl::refuse_vertices(constraint_error::contradictory, std::move(contradictory),
                               "pinned to two different positions; leave one of the pins out");
-        impl::refuse_vertices(constraint_fault::duplicate, std::move(duplicate),
+        impl::refuse_vertices(constraint_error::duplicate, std::move(duplicate),
                               "pinned twice to the same position; leave one of the pins out");
-        impl::refuse_vertices(constraint_fault::idle_spring, std::move(idle), idle_spring_);
+        impl::refuse_vertices(constraint_error::idle_spring, std::move(idle), idle_spring_);
         for (auto& [v, p] : added) pins_.insert_or_assign(v, p);
         return *this;
     }

@@ -62,7 +62,7 @@ public:
                 for (std::size_t i = 0; i < ids.size(); ++i)
                 {
                     if (numbers[i] < 0)
-                        refuse(constraint_fault::out_of_range, ids[i], "that the mesh does not have; count from 0");
+                        refuse(constraint_error::out_of_range, ids[i], "that the mesh does not have; count from 0");
                     const auto place = p.place_of(numbers[i]);
                     auto e = given.entries()[i];
                     e.id = place.place;
@@ -112,7 +112,7 @@ public:
 private:
     static constexpr std::uint8_t every = taut::impl::fixed_marks<D>::every;
 
-    [[noreturn]] static void refuse(constraint_fault fault, std::int64_t id, const std::string& why)
+    [[noreturn]] static void refuse(constraint_error::fault_type fault, std::int64_t id, const std::string& why)
     {
         throw constraint_error(fault, {}, "1 vertex (" + std::to_string(id) + ") " + why);
     }
@@ -122,15 +122,15 @@ private:
         for (const auto& e : given.entries())
         {
             if (e.held == 0 && e.weight == 0)
-                refuse(constraint_fault::no_coordinate, e.id,
+                refuse(constraint_error::no_coordinate, e.id,
                        "with a pin of a coordinate that it does not have, or a spring of weight 0; coordinates count "
                        "from 0");
             if (!(e.weight >= 0) || !std::isfinite(e.weight))
-                refuse(constraint_fault::bad_weight, e.id,
+                refuse(constraint_error::bad_weight, e.id,
                        "with a spring whose weight is negative or not finite; give a finite one > 0");
             for (int k = 0; k < D; ++k)
                 if (!std::isfinite(e.x[k]))
-                    refuse(constraint_fault::not_finite, e.id, "with a target that is not finite; give a finite one");
+                    refuse(constraint_error::not_finite, e.id, "with a target that is not finite; give a finite one");
         }
     }
 
@@ -143,13 +143,13 @@ private:
         {
             const auto v = static_cast<std::size_t>(e.id);
             if (idle_[v] != 0)
-                refuse(constraint_fault::unused_vertex, p.ids[v],
+                refuse(constraint_error::unused_vertex, p.ids[v],
                        std::string("pinned that no ") + Element::name +
                            " uses, so that nothing follows; leave its pin out");
             if (e.held == 0)
             {
                 if (sprung[v]++ != 0)
-                    refuse(constraint_fault::duplicate, p.ids[v], "with a second spring; leave one out");
+                    refuse(constraint_error::duplicate, p.ids[v], "with a second spring; leave one out");
                 springs.push_back({v, e.x, e.weight});
                 continue;
             }
@@ -158,7 +158,7 @@ private:
                 if ((e.held >> k & 1U) == 0) continue;
                 double& target = targets[D * v + static_cast<std::size_t>(k)];
                 if (held(v, k) && target != e.x[k])
-                    refuse(constraint_fault::contradictory, p.ids[v],
+                    refuse(constraint_error::contradictory, p.ids[v],
                            "pinned to two different positions; leave one of them out");
                 target = e.x[k];
                 marks[v] = static_cast<std::uint8_t>(marks[v] | 1U << k);
@@ -166,7 +166,7 @@ private:
         }
         for (const auto& s : springs)
             if (pinned(s.vertex))
-                refuse(constraint_fault::idle_spring, p.ids[s.vertex],
+                refuse(constraint_error::idle_spring, p.ids[s.vertex],
                        "with a spring and a pin, which leaves the spring nothing to do; leave one of them out");
     }
 

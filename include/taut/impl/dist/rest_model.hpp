@@ -128,9 +128,9 @@ private:
                       [&](const taut::impl::mesh_finding& f)
                       {
                           const bool shape =
-                              f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell;
+                              f.fault == mesh_error::degenerate_cell || f.fault == mesh_error::inverted_cell;
                           // A part ends anywhere.
-                          return f.fault == mesh_fault::non_manifold_vertex || (shape && regular) ||
+                          return f.fault == mesh_error::non_manifold_vertex || (shape && regular) ||
                                  (!shape && !p.owners.empty()); // parts share facets
                       });
         if (!found.empty()) refuse(p, found.front());
@@ -152,12 +152,12 @@ private:
 
     [[noreturn]] static void refuse(const part<Element>& p, const taut::impl::mesh_finding& found)
     {
-        const bool of_vertices = found.fault == mesh_fault::non_manifold_facet || found.fault == mesh_fault::non_finite;
+        const bool of_vertices = found.fault == mesh_error::non_manifold_facet || found.fault == mesh_error::non_finite;
         std::vector<idx> ids; // beyond 32 bits they are cut
         for (const idx i : found.ids)
             ids.push_back(static_cast<idx>(of_vertices ? p.ids[static_cast<std::size_t>(i)]
                                                        : p.cell_ids[static_cast<std::size_t>(i)]));
-        throw mesh_error(describe<Element>(found.fault, std::move(ids)));
+        throw mesh_error(taut::impl::describe<Element>(found.fault, std::move(ids)));
     }
 
     static std::unique_ptr<taut::impl::ideal_elements<Element>> regular_ones(std::size_t count, double each)

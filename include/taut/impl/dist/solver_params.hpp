@@ -4,6 +4,7 @@
 #include <string>
 
 #include <taut/impl/core/error.hpp>
+#include <taut/impl/core/name_in.hpp>
 
 namespace taut::dist
 {
@@ -45,16 +46,7 @@ namespace taut::dist
 /// Stable name of a preconditioner.
 constexpr const char* to_string(preconditioner p)
 {
-    switch (p)
-    {
-    case preconditioner::boomeramg:
-        return "boomeramg";
-    case preconditioner::gamg:
-        return "gamg";
-    case preconditioner::block_jacobi:
-        return "block-jacobi";
-    }
-    return "unknown";
+    return taut::impl::name_in<preconditioner::block_jacobi>({"boomeramg", "gamg", "block-jacobi"}, p);
 }
 
 } // namespace taut::dist

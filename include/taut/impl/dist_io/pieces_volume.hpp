@@ -179,7 +179,7 @@ protected:
         all_.together(
             [this]
             {
-                if (cells == 0) throw mesh_error(mesh_fault::empty, {}, "the pieces have no volume cells; give some");
+                if (cells == 0) throw mesh_error(mesh_error::empty, {}, "the pieces have no volume cells; give some");
             });
         join_groups();
     }
@@ -255,7 +255,7 @@ private:
             for (std::size_t k = begin; k < end; ++k) pieces.insert(p[order[k]].piece);
             const bool twice = pieces.size() < end - begin;
             if (twice && pieces.size() > 1)
-                throw mesh_error(mesh_fault::non_finite, {},
+                throw mesh_error(mesh_error::non_finite, {},
                                  "piece " + std::to_string(p[order[begin]].piece) +
                                      " has two points at one position that other pieces have, too, so that which is "
                                      "which is not known; save the pieces with global ids of their points");

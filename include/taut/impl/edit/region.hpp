@@ -31,16 +31,16 @@ inline surface_region cut_out(const mesh<triangle>& m, const face_set& set)
 {
     auto faces = set.faces();
     if (faces.empty())
-        throw region_error(region_fault::empty, {}, "the region has no triangle; name some, or a larger radius");
+        throw region_error(region_error::empty, {}, "the region has no triangle; name some, or a larger radius");
     if (const auto parts = set.first_of_components(); parts.size() > 1)
-        throw region_error(region_fault::several_components, parts,
+        throw region_error(region_error::several_components, parts,
                            "the region is no disk: it has " + std::to_string(parts.size()) +
                                " parts; choose triangles that hang together");
     if (auto touching = set.pinched_vertices(); !touching.empty())
     {
         const auto message = "the region is no disk: it touches itself at " + list_ids("vertex", "vertices", touching) +
                              "; add or take away triangles there";
-        throw region_error(region_fault::pinched, std::move(touching), message);
+        throw region_error(region_error::pinched, std::move(touching), message);
     }
 
     std::vector<idx> own(m.points().size(), -1), vertices;
@@ -71,15 +71,15 @@ inline surface_region cut_out(const mesh<triangle>& m, const face_set& set)
     const std::string seen = "the region is no disk: it has " +
                              counted(loops.size(), "boundary loop", "boundary loops") +
                              " and the Euler characteristic " + std::to_string(euler);
-    if (loops.empty()) throw region_error(region_fault::no_boundary, {}, seen + "; choose less than the whole surface");
+    if (loops.empty()) throw region_error(region_error::no_boundary, {}, seen + "; choose less than the whole surface");
     if (loops.size() > 1)
     {
         std::vector<idx> first;
         for (const auto& loop : loops) first.push_back(vertices[static_cast<std::size_t>(loop[0])]);
-        throw region_error(region_fault::several_boundaries, std::move(first),
+        throw region_error(region_error::several_boundaries, std::move(first),
                            seen + "; choose a smaller region, or close the holes of the surface");
     }
-    if (euler != 1) throw region_error(region_fault::handles, {}, seen + "; choose a smaller region");
+    if (euler != 1) throw region_error(region_error::handles, {}, seen + "; choose a smaller region");
     return {std::move(surface), std::move(vertices), std::move(faces), std::move(loops[0])};
 }
 
@@ -91,7 +91,7 @@ inline void require_in_range(std::span<const idx> ids, idx count, const char* th
     if (beyond.empty()) return;
     const auto message =
         list_ids(thing, things, beyond) + " not there; numbers run from 0 to " + std::to_string(count - 1);
-    throw region_error(region_fault::out_of_range, std::move(beyond), message);
+    throw region_error(region_error::out_of_range, std::move(beyond), message);
 }
 
 } // namespace taut::impl
@@ -132,7 +132,7 @@ inline impl::surface_region geodesic_disk(const mesh<triangle>& m, idx centre, d
     for (const idx f : cells_of.row(centre))
         if (set.has(f)) start = f;
     if (start < 0)
-        throw region_error(region_fault::empty, {centre},
+        throw region_error(region_error::empty, {centre},
                            "no triangle around vertex " + std::to_string(centre) + " is within the radius " +
                                std::to_string(radius) + "; name a larger one");
     set.keep_component(start);
@@ -160,14 +160,14 @@ inline impl::surface_region region_inside(const mesh<triangle>& m, std::span<con
         const std::array<idx, 2> edge{loop[k], loop[(k + 1) % loop.size()]};
         const auto found = side_of.find(edge);
         if (found == side_of.end())
-            throw region_error(region_fault::not_a_loop, {edge[0], edge[1]},
+            throw region_error(region_error::not_a_loop, {edge[0], edge[1]},
                                "vertices " + std::to_string(edge[0]) + " and " + std::to_string(edge[1]) +
                                    " of the loop have no edge with the surface to its left; name vertices along edges");
         barrier.push_back(found->second);
     }
     impl::face_set set(m, sides);
     if (!set.flood(barrier))
-        throw region_error(region_fault::not_a_loop, {loop.begin(), loop.end()},
+        throw region_error(region_error::not_a_loop, {loop.begin(), loop.end()},
                            "the loop does not part the surface; choose one that encloses a region");
     return impl::cut_out(m, set);
 }

@@ -1,45 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
+#include <taut/impl/core/fault_error.hpp>
 
-#include <taut/impl/core/error.hpp>
-#include <taut/impl/core/types.hpp>
-
-namespace taut
+namespace taut::impl
 {
 
 /// Reasons why a part of a surface is no disk. The comment says what region_error::ids() holds, in numbers of the
 /// surface.
-enum class region_fault
+struct region_faults
 {
-    empty,              ///< no triangle; the vertex that was asked for, if there is one
-    out_of_range,       ///< vertices or triangles that are not there
-    not_a_loop,         ///< vertices of a loop where it leaves the edges, or all where it does not part the surface
-    several_components, ///< one triangle of each
-    pinched,            ///< vertices where it touches itself
-    no_boundary,        ///< no ids: it is the whole surface
-    several_boundaries, ///< one vertex of each boundary loop
-    handles             ///< no ids
+    enum fault_kind
+    {
+        empty,              ///< no triangle; the vertex that was asked for, if there is one
+        out_of_range,       ///< vertices or triangles that are not there
+        not_a_loop,         ///< vertices of a loop where it leaves the edges, or all where it does not part the surface
+        several_components, ///< one triangle of each
+        pinched,            ///< vertices where it touches itself
+        no_boundary,        ///< no ids: it is the whole surface
+        several_boundaries, ///< one vertex of each boundary loop
+        handles             ///< no ids
+    };
 };
+using region_fault = region_faults::fault_kind;
+
+} // namespace taut::impl
+
+namespace taut
+{
 
 /// Error of a region that cannot be cut out as a disk. what() has the reason and the remedy.
-class region_error : public error
+class region_error : public impl::region_faults, public impl::fault_error<impl::region_fault>
 {
 public:
-    region_error(region_fault fault, std::vector<idx> ids, const std::string& message)
-        : error(message), fault_(fault), ids_(std::move(ids))
-    {
-    }
-
-    region_fault fault() const noexcept { return fault_; }
-    const std::vector<idx>& ids() const noexcept { return ids_; }
-
-private:
-    region_fault fault_;
-    std::vector<idx> ids_;
+    using fault_error::fault_error;
 };
 
 } // namespace taut

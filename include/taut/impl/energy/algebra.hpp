@@ -5,7 +5,7 @@
 
 /// Energies compose: `0.8 * isometric{} + 0.2 * mips_power{.p = 3}`, `shape{} * area{}`. For energies of your own,
 /// bring the operators into scope with `using namespace taut::energy;`.
-namespace taut::energy
+namespace taut::energy::impl
 {
 
 /// Energy times a number, factor * e.
@@ -53,11 +53,6 @@ struct product
     }
 };
 
-} // namespace taut::energy
-
-namespace taut::energy::impl
-{
-
 template <class E>
 concept composable = energy_function<E, 2> || energy_function<E, 3>;
 
@@ -67,25 +62,25 @@ namespace taut::energy
 {
 
 template <impl::composable E>
-scaled<E> operator*(double factor, const E& e)
+impl::scaled<E> operator*(double factor, const E& e)
 {
     return {factor, e};
 }
 
 template <impl::composable E>
-scaled<E> operator*(const E& e, double factor)
+impl::scaled<E> operator*(const E& e, double factor)
 {
     return {factor, e};
 }
 
 template <impl::composable A, impl::composable B>
-sum<A, B> operator+(const A& a, const B& b)
+impl::sum<A, B> operator+(const A& a, const B& b)
 {
     return {a, b};
 }
 
 template <impl::composable A, impl::composable B>
-product<A, B> operator*(const A& a, const B& b)
+impl::product<A, B> operator*(const A& a, const B& b)
 {
     return {a, b};
 }

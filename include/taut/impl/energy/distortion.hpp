@@ -25,17 +25,17 @@ element<double, Element::dimension> mapped_element(const mesh<Element>& m, const
     return {S, glm::determinant(S), ideal.measure[c]};
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Value of an energy at an element: +infinity beyond its barrier, where the element is flipped or flat.
 template <class Energy, int D>
 double bounded(const Energy& energy, const element<double, D>& e)
 {
     return Energy::barrier && !(e.det > 0) ? std::numeric_limits<double>::infinity() : energy(e);
 }
+
+} // namespace taut::impl
+
+namespace taut
+{
 
 /// Value of an energy for every element; +infinity beyond its barrier.
 template <class Element, class Energy>
@@ -47,7 +47,7 @@ std::vector<double> distortion(const mesh<Element>& m, const impl::ideal_element
                        [&](std::size_t begin, std::size_t end)
                        {
                            for (std::size_t c = begin; c < end; ++c)
-                               result[c] = bounded(energy, impl::mapped_element(m, ideal, x, c));
+                               result[c] = impl::bounded(energy, impl::mapped_element(m, ideal, x, c));
                        });
     return result;
 }

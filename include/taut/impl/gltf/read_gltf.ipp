@@ -42,7 +42,7 @@ public:
             if (p.count > 0) add(p, primitives.first_vertex[p.pool]);
         }
         if (model_.triangles.empty())
-            throw mesh_error(mesh_fault::empty, {},
+            throw mesh_error(mesh_error::empty, {},
                              model_.source.path + ": there are no triangles; give at least one mesh of them");
         if (std::all_of(model_.texcoord_cells.begin(), model_.texcoord_cells.end(),
                         [](const auto& cell) { return cell[0] < 0; }))

@@ -277,7 +277,7 @@ void write_gltf(const std::filesystem::path& path, const gltf_model& model,
 
 gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
 {
-    if (points.empty() || triangles.empty()) throw mesh_error(mesh_fault::empty, {}, "there are no triangles");
+    if (points.empty() || triangles.empty()) throw mesh_error(mesh_error::empty, {}, "there are no triangles");
     gltf_model model{};
     model.points.assign(points.begin(), points.end());
     const auto is_drawn = [&](idx v)

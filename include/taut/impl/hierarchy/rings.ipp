@@ -124,7 +124,7 @@ ring_table make_rings(std::span<const std::array<idx, 3>> cells, std::size_t cou
         const std::string message =
             "vertex " + std::to_string(ids[0]) +
             ": its triangles do not form one oriented fan; turn or part them, `taut check` and validate() list all";
-        throw mesh_error(mesh_fault::non_manifold_vertex, std::move(ids), message);
+        throw mesh_error(mesh_error::non_manifold_vertex, std::move(ids), message);
     }
     return rings;
 }

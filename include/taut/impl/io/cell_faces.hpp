@@ -275,15 +275,15 @@ inline std::vector<taut::impl::mesh_finding> check_sides(const volume_file& file
     const auto pairs = [](const std::vector<idx>& ids) { return taut::impl::list_ids("pair", "pairs", ids, 2); };
     std::vector<taut::impl::mesh_finding> found;
     if (!copies.empty())
-        found.push_back({mesh_fault::duplicate_cell, copies,
+        found.push_back({mesh_error::duplicate_cell, copies,
                          pairs(copies) + " of cells with the same corners; remove one of each"});
     if (!clashing.empty())
-        found.push_back({mesh_fault::inconsistent_orientation, clashing,
+        found.push_back({mesh_error::inconsistent_orientation, clashing,
                          pairs(clashing) +
                              " of cells oriented differently, in whatever order their corners are; cut the "
                              "mesh open there, or remove cells"});
     if (!non_manifold.empty())
-        found.push_back({mesh_fault::non_manifold_facet, non_manifold,
+        found.push_back({mesh_error::non_manifold_facet, non_manifold,
                          (named == 2 ? taut::impl::list_ids("edge", "edges", non_manifold, named)
                                      : taut::impl::list_ids("face", "faces", non_manifold, named)) +
                              " with three or more cells; remove the extra ones or separate them"});

@@ -24,11 +24,6 @@ struct file_place
     std::size_t number;
 };
 
-} // namespace taut::io::impl
-
-namespace taut::io::impl
-{
-
 /// "mesh.obj, line 12: " or "mesh.obj: ".
 inline std::string place_prefix(const std::string& path, const std::optional<file_place>& place)
 {

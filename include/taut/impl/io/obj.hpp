@@ -87,7 +87,7 @@ public:
             soup_.note(
                 [&]
                 {
-                    return mesh_error(mesh_fault::index_out_of_range,
+                    return mesh_error(mesh_error::index_out_of_range,
                                       {static_cast<idx>(vertices_.face), static_cast<idx>(vertices_.number - 1)}, what);
                 });
         if (soup_.texcoord_fault.empty())
@@ -171,7 +171,7 @@ private:
             soup_.note(
                 [&]
                 {
-                    return mesh_error(mesh_fault::index_out_of_range, {static_cast<idx>(soup_.sizes.size()), -1},
+                    return mesh_error(mesh_error::index_out_of_range, {static_cast<idx>(soup_.sizes.size()), -1},
                                       place_of(position) + wrong_number(i, soup_.points.size()));
                 });
         return v.value_or(-1);

@@ -144,7 +144,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
         if (v >= 0 && v < m.vertex_count())
             still[static_cast<std::size_t>(v)] = 1;
         else
-            throw constraint_error(constraint_fault::out_of_range, {v},
+            throw constraint_error(constraint_error::out_of_range, {v},
                                    "fixed vertex " + std::to_string(v) + " of a mesh that has " +
                                        std::to_string(m.vertex_count()) + ", counted from 0");
     if (params.boundary == smooth_boundary::fixed)

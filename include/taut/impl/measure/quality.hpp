@@ -184,9 +184,9 @@ quality measure_quality(const mesh<Element>& m, const impl::ideal_elements<Eleme
                                             [&](impl::quality_sums& s, std::size_t c)
                                             {
                                                 const auto e = impl::mapped_element(m, ideal, x, c);
-                                                s.isometric.add(bounded(energy::isometric{}, e), e.measure);
-                                                s.shape.add(bounded(energy::shape{}, e), e.measure);
-                                                s.area.add(bounded(energy::area{}, e), e.measure);
+                                                s.isometric.add(impl::bounded(energy::isometric{}, e), e.measure);
+                                                s.shape.add(impl::bounded(energy::shape{}, e), e.measure);
+                                                s.area.add(impl::bounded(energy::area{}, e), e.measure);
                                                 s.angular += impl::angular_distortion(m, x, c);
                                                 s.rest += e.measure;
                                                 s.mapped += std::abs(e.det) * e.measure;

@@ -17,11 +17,11 @@ std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const impl
 {
     if (!f.manifold())
         throw mesh_error(
-            mesh_fault::non_manifold_facet, {f.crowds[0].begin(), f.crowds[0].end()},
+            mesh_error::non_manifold_facet, {f.crowds[0].begin(), f.crowds[0].end()},
             "boundary_loops: an edge has three or more triangles; part them, `taut check` and validate() list all");
     if (!f.oriented())
         throw mesh_error(
-            mesh_fault::inconsistent_orientation, {f.clash[0][0] / 3, f.clash[0][1] / 3},
+            mesh_error::inconsistent_orientation, {f.clash[0][0] / 3, f.clash[0][1] / 3},
             "boundary_loops: neighbours are oriented differently; turn one over, `taut check` and validate() list all");
 
     std::vector<char> seen(f.twin.size(), 0);

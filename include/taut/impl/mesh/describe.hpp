@@ -46,64 +46,58 @@ inline std::string describe_unused(const std::vector<idx>& ids)
     return list_ids("vertex", "vertices", ids) + " without a triangle: ignored";
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Describes a fault of a mesh of `Element`s in a sentence: the count, the first ids, the fault and the remedy. owners:
 /// where these are the corners of cells, the cell of each.
 template <class Element>
-impl::mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<const idx> owners = {})
+mesh_finding describe(mesh_error::fault_type fault, std::vector<idx> ids, std::span<const idx> owners = {})
 {
     const std::string cells = Element::names, facets = Element::facet_names;
-    const auto of_cells = [&](std::size_t group = 1)
-    { return impl::list_ids(Element::name, Element::names, ids, group); };
-    const auto pairs = [&] { return impl::list_ids("pair", "pairs", ids, 2) + " of " + cells; };
-    const auto vertices = [&] { return impl::list_ids("vertex", "vertices", ids); };
+    const auto of_cells = [&](std::size_t group = 1) { return list_ids(Element::name, Element::names, ids, group); };
+    const auto pairs = [&] { return list_ids("pair", "pairs", ids, 2) + " of " + cells; };
+    const auto vertices = [&] { return list_ids("vertex", "vertices", ids); };
     const auto say = [&]() -> std::string
     {
         switch (fault)
         {
-        case mesh_fault::empty:
+        case mesh_error::empty:
             return "the mesh has no " + cells + "; give it at least one";
-        case mesh_fault::too_large:
+        case mesh_error::too_large:
             return "the mesh exceeds 32-bit numbering; split it";
-        case mesh_fault::index_out_of_range:
+        case mesh_error::index_out_of_range:
             return of_cells(2) + " naming a vertex that does not exist; repair the file";
-        case mesh_fault::non_finite:
+        case mesh_error::non_finite:
             return vertices() + " with a coordinate that is not a finite number; repair the file";
-        case mesh_fault::repeated_vertex:
+        case mesh_error::repeated_vertex:
             return of_cells() + " naming a vertex twice; remove them";
-        case mesh_fault::degenerate_cell:
-            return impl::list_first_elements<Element>(ids.size(), ids, owners) +
+        case mesh_error::degenerate_cell:
+            return list_first_elements<Element>(ids.size(), ids, owners) +
                    " flat at rest; collapse an edge or move a vertex of each";
-        case mesh_fault::inverted_cell:
-            return impl::list_first_elements<Element>(ids.size(), ids, owners) +
+        case mesh_error::inverted_cell:
+            return list_first_elements<Element>(ids.size(), ids, owners) +
                    " of negative rest volume; untangle the mesh, give a shape at rest, or swap two corners of each";
-        case mesh_fault::duplicate_cell:
+        case mesh_error::duplicate_cell:
             return pairs() + " with the same corners; remove one of each";
-        case mesh_fault::inconsistent_orientation:
+        case mesh_error::inconsistent_orientation:
             return pairs() + " oriented differently; turn one of each over, so that all agree";
-        case mesh_fault::not_orientable:
+        case mesh_error::not_orientable:
             return pairs() + " oriented differently, and no orientation agrees everywhere (one-sided, as a Moebius "
                              "strip); cut the mesh open along a seam";
-        case mesh_fault::non_manifold_facet:
-            return impl::list_ids(Element::facet_name, Element::facet_names, ids,
-                                  static_cast<std::size_t>(Element::dimension)) +
+        case mesh_error::non_manifold_facet:
+            return list_ids(Element::facet_name, Element::facet_names, ids,
+                            static_cast<std::size_t>(Element::dimension)) +
                    " with three or more " + cells + "; remove the extra ones or separate them";
-        case mesh_fault::non_manifold_vertex:
+        case mesh_error::non_manifold_vertex:
             return vertices() + " where parts touch that share no " + Element::facet_name + "; duplicate each vertex";
-        case mesh_fault::unreferenced_vertex:
+        case mesh_error::unreferenced_vertex:
             return vertices() + " without a " + Element::name + "; remove them";
-        case mesh_fault::several_components:
-            return impl::list_ids("component", "components, one vertex of each:", ids) + "; map them one at a time";
-        case mesh_fault::closed_surface:
+        case mesh_error::several_components:
+            return list_ids("component", "components, one vertex of each:", ids) + "; map them one at a time";
+        case mesh_error::closed_surface:
             return "the surface has no boundary; cut it open along a seam";
-        case mesh_fault::several_boundaries:
-            return impl::list_ids("boundary loop", "boundary loops, one vertex of each:", ids) +
+        case mesh_error::several_boundaries:
+            return list_ids("boundary loop", "boundary loops, one vertex of each:", ids) +
                    "; fill all but one, or cut from one to the next";
-        case mesh_fault::handles:
+        case mesh_error::handles:
             return "the surface has handles and is not a disk; cut it open along a loop through each";
         }
         return "unknown fault";
@@ -112,7 +106,7 @@ impl::mesh_finding describe(mesh_fault fault, std::vector<idx> ids, std::span<co
     return {fault, std::move(ids), std::move(message)};
 }
 
-} // namespace taut
+} // namespace taut::impl
 
 #ifdef TAUT_IMPLEMENTATION
 #include <taut/impl/mesh/describe.ipp>

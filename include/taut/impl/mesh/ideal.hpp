@@ -35,11 +35,6 @@ double unit_scale(const mesh<Element>& m)
     return largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Mesh with all lengths multiplied by a factor, exactly, by its unit_scale.
 template <class Element>
 mesh<Element> scaled(const mesh<Element>& m, double factor)
@@ -48,11 +43,6 @@ mesh<Element> scaled(const mesh<Element>& m, double factor)
     for (vec3& p : points) p *= factor;
     return {std::move(points), m.cells()};
 }
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Jacobian S = A W^-1 (eq. 3) of the map of an element, A the edges of the image from corner 0. inverse: W^-1, upper
 /// triangular.
@@ -182,8 +172,8 @@ struct ideal_elements
                            });
         if (!bad) return;
         auto [flat, inverted] = impl::bad_rest_cells(m);
-        if (!flat.empty()) throw mesh_error(describe<Element>(mesh_fault::degenerate_cell, std::move(flat)));
-        if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_fault::inverted_cell, std::move(inverted)));
+        if (!flat.empty()) throw mesh_error(describe<Element>(mesh_error::degenerate_cell, std::move(flat)));
+        if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_error::inverted_cell, std::move(inverted)));
     }
 };
 

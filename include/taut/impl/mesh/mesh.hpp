@@ -60,11 +60,11 @@ public:
 private:
     void require_sizes() const
     {
-        if (cells_.empty()) throw mesh_error(describe<Element>(mesh_fault::empty, {}));
+        if (cells_.empty()) throw mesh_error(impl::describe<Element>(mesh_error::empty, {}));
         // Corners and facets are numbered cell * corners + k in 32 bits.
         constexpr std::size_t limit = std::numeric_limits<idx>::max();
         if (points_.size() > limit || cells_.size() > limit / static_cast<std::size_t>(corners))
-            throw mesh_error(mesh_fault::too_large, {},
+            throw mesh_error(mesh_error::too_large, {},
                              std::to_string(points_.size()) + " vertices and " + std::to_string(cells_.size()) + ' ' +
                                  Element::names + " exceed 32-bit numbering; split the mesh");
     }
@@ -78,7 +78,7 @@ private:
         for (std::size_t k = 0; k < t.size(); ++k)
         {
             if (t[k] < 0 || t[k] >= n)
-                throw mesh_error(mesh_fault::index_out_of_range, {static_cast<idx>(c), t[k]},
+                throw mesh_error(mesh_error::index_out_of_range, {static_cast<idx>(c), t[k]},
                                  std::string(Element::name) + ' ' + std::to_string(c) + ": vertex " +
                                      std::to_string(t[k]) + (t[k] < 0 ? " < 0" : " >= " + std::to_string(n)));
             for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
@@ -120,7 +120,8 @@ private:
         std::vector<idx> repeated;
         for (std::size_t c = 0; c < cells_.size(); ++c)
             if (!is_proper(c)) repeated.push_back(static_cast<idx>(c));
-        if (!repeated.empty()) throw mesh_error(describe<Element>(mesh_fault::repeated_vertex, std::move(repeated)));
+        if (!repeated.empty())
+            throw mesh_error(impl::describe<Element>(mesh_error::repeated_vertex, std::move(repeated)));
     }
 
     void require_finite() const
@@ -128,7 +129,7 @@ private:
         std::vector<idx> bad;
         for (std::size_t v = 0; v < points_.size(); ++v)
             if (!is_finite(points_[v])) bad.push_back(static_cast<idx>(v));
-        if (!bad.empty()) throw mesh_error(describe<Element>(mesh_fault::non_finite, std::move(bad)));
+        if (!bad.empty()) throw mesh_error(impl::describe<Element>(mesh_error::non_finite, std::move(bad)));
     }
 
     std::vector<vec3> points_;

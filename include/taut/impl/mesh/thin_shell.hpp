@@ -80,7 +80,7 @@ private:
         if (!alone.empty())
         {
             const auto text = impl::list_ids("triangle", "triangles", alone);
-            throw mesh_error(mesh_fault::several_components, std::move(alone),
+            throw mesh_error(mesh_error::several_components, std::move(alone),
                              text + " without a neighbour, which cannot bend; remove isolated ones");
         }
         return found;

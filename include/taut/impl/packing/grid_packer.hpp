@@ -172,7 +172,7 @@ private:
             if (2 * resolution_ > params_.max_resolution) break;
         }
         throw packing_error(
-            packing_fault::no_room, {},
+            packing_error::no_room, {},
             "at " + short_number(params_.texels_per_unit) + " texels a unit the charts, of which " + largest_box() +
                 ", do not fit into " + std::to_string(params_.tiles) +
                 (params_.tiles == 1 ? " tile of " : " tiles of ") + std::to_string(resolution_) + " x " +
@@ -206,7 +206,7 @@ private:
             }
         }
         if (low == 0)
-            throw packing_error(packing_fault::no_room, {},
+            throw packing_error(packing_error::no_room, {},
                                 "the padding around " + std::to_string(pieces_.size()) + " charts takes all of " +
                                     std::to_string(params_.tiles) + (params_.tiles == 1 ? " tile" : " tiles") +
                                     "; ask for less padding, a higher resolution or more tiles");

@@ -38,7 +38,7 @@ inline void check_charts(std::span<const vec2> uv, std::span<const std::array<id
 {
     for (std::size_t v = 0; v < uv.size(); ++v)
         if (!finite(uv[v]))
-            throw packing_error(packing_fault::not_finite, {static_cast<idx>(v)},
+            throw packing_error(packing_error::not_finite, {static_cast<idx>(v)},
                                 "vertex " + std::to_string(v) + " is not finite; flatten its chart again");
     std::vector<idx> empty;
     for (std::size_t c = 0; c + 1 < first_cell.size(); ++c)
@@ -47,7 +47,7 @@ inline void check_charts(std::span<const vec2> uv, std::span<const std::array<id
         for (idx t = first_cell[c]; t < first_cell[c + 1]; ++t)
             for (const idx v : cells[static_cast<std::size_t>(t)])
                 if (v < first_vertex[c] || v >= first_vertex[c + 1])
-                    throw packing_error(packing_fault::out_of_range, {t},
+                    throw packing_error(packing_error::out_of_range, {t},
                                         "triangle " + std::to_string(t) + " of chart " + std::to_string(c) +
                                             " has vertex " + std::to_string(v) +
                                             ", which is not one of that chart; give each chart its own vertices");
@@ -55,7 +55,7 @@ inline void check_charts(std::span<const vec2> uv, std::span<const std::array<id
     if (!empty.empty())
     {
         const std::string message = "chart " + std::to_string(empty.front()) + " has no triangle; leave it out";
-        throw packing_error(packing_fault::no_triangle, std::move(empty), message);
+        throw packing_error(packing_error::no_triangle, std::move(empty), message);
     }
 }
 

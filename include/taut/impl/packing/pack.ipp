@@ -137,7 +137,7 @@ private:
                 }
         }
         if (best.side > 0) return best;
-        throw packing_error(packing_fault::no_room, {},
+        throw packing_error(packing_error::no_room, {},
                             "pinned charts leave no room for others; pin fewer, or ask for more tiles");
     }
 
@@ -370,7 +370,7 @@ packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, 
     params.validate(outlines.charts());
     double area = 0;
     for (const double a : outlines.areas) area += a;
-    if (!(area > 0)) throw packing_error(packing_fault::no_area, {}, "the charts have no area; flatten them again");
+    if (!(area > 0)) throw packing_error(packing_error::no_area, {}, "the charts have no area; flatten them again");
     const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
     if (params.on_grid()) return grid_packer(pieces, params).run();
     packing packed = packer(pieces, params, effort).run();

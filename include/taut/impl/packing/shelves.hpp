@@ -72,7 +72,7 @@ inline shelf_layout lay_on_shelves(std::span<const piece> pieces, idx tiles, dou
     for (int step = 0; step < 60 && !(best.scale > 0); ++step, low /= 2)
         best = lay_on_shelves(boxes, low, tiles, border, gap);
     if (!(best.scale > 0))
-        throw packing_error(packing_fault::no_room, {},
+        throw packing_error(packing_error::no_room, {},
                             "the padding around " + std::to_string(pieces.size()) + " charts takes all of " +
                                 std::to_string(tiles) + " tile" + (tiles > 1 ? "s" : "") +
                                 "; ask for less padding, a higher resolution or more tiles");

@@ -39,9 +39,9 @@ public:
         all_.together(
             [&]
             {
-                if (first_ > last) throw mesh_error(mesh_fault::empty, {}, "the mesh has no vertices; give it some");
+                if (first_ > last) throw mesh_error(mesh_error::empty, {}, "the mesh has no vertices; give it some");
                 if (first_ < 0)
-                    throw mesh_error(mesh_fault::index_out_of_range, {},
+                    throw mesh_error(mesh_error::index_out_of_range, {},
                                      "vertex " + std::to_string(first_) + " has a negative number; count from 0");
             });
         each_ = (last - first_) / all_.size() + 1;
@@ -108,7 +108,7 @@ private:
             if (n == 0 || known_[n - 1].id != v.id)
                 known_[n++] = v;
             else if (known_[n - 1].x != v.x)
-                throw mesh_error(mesh_fault::non_finite, {},
+                throw mesh_error(mesh_error::non_finite, {},
                                  "vertex " + std::to_string(v.id) +
                                      " has two positions; give the same one wherever it is given");
         }

@@ -130,7 +130,7 @@ private:
                 for (std::size_t v = 0; v < given.ids.size(); ++v)
                     for (int k = 0; k < 3; ++k)
                         if (!std::isfinite(given.points[v][k]))
-                            throw mesh_error(mesh_fault::non_finite, {},
+                            throw mesh_error(mesh_error::non_finite, {},
                                              "vertex " + std::to_string(given.ids[v]) +
                                                  " with a coordinate that is not a finite number; repair the mesh");
             });
@@ -139,7 +139,7 @@ private:
 
     void require_sizes() const
     {
-        if (cells == 0) throw mesh_error(describe<Element>(mesh_fault::empty, {}));
+        if (cells == 0) throw mesh_error(taut::impl::describe<Element>(mesh_error::empty, {}));
         if (vertices > std::numeric_limits<PetscInt>::max() / Element::dimension)
             throw size_error("mesh", std::to_string(vertices) +
                                          " vertices are more than this PETSc can number; use one of 64-bit indices");
@@ -251,16 +251,16 @@ private:
 
     static void require_corners(const sent_cell& s, const std::array<std::int64_t, K>& named)
     {
-        const auto refuse = [&](mesh_fault fault, const std::string& why)
+        const auto refuse = [&](mesh_error::fault_type fault, const std::string& why)
         { throw mesh_error(fault, {}, std::string(Element::name) + ' ' + std::to_string(s.id) + why); };
         for (std::size_t k = 0; k < K; ++k)
         {
             if (s.corners[k] < 0)
-                refuse(mesh_fault::index_out_of_range,
+                refuse(mesh_error::index_out_of_range,
                        " names vertex " + std::to_string(named[k]) + ", which no process gave; repair the mesh");
             for (std::size_t j = 0; j < k; ++j)
                 if (s.corners[j] == s.corners[k])
-                    refuse(mesh_fault::repeated_vertex,
+                    refuse(mesh_error::repeated_vertex,
                            " names vertex " + std::to_string(named[k]) + " twice; remove it");
         }
     }

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include <taut/impl/core/error.hpp>
+#include <taut/impl/core/name_in.hpp>
 #include <taut/impl/core/types.hpp>
 
 namespace taut
 {
 
 /// Defects that repair_surface() repairs. Where mesh_fault has the same, the word is the same. The comment names the
-/// remedy, and what repair_finding::ids holds.
+/// remedy, and what repair_kind::ids holds.
 enum class repair_kind
 {
     index_out_of_range,       ///< left out: triangles that name a vertex which does not exist
@@ -32,34 +33,11 @@ enum class repair_kind
 /// Stable identifier of a defect, for programs.
 constexpr const char* to_string(repair_kind kind)
 {
-    switch (kind)
-    {
-    case repair_kind::index_out_of_range:
-        return "index_out_of_range";
-    case repair_kind::non_finite:
-        return "non_finite";
-    case repair_kind::repeated_vertex:
-        return "repeated_vertex";
-    case repair_kind::degenerate_cell:
-        return "degenerate_cell";
-    case repair_kind::duplicate_cell:
-        return "duplicate_cell";
-    case repair_kind::unreferenced_vertex:
-        return "unreferenced_vertex";
-    case repair_kind::coincident_vertex:
-        return "coincident_vertex";
-    case repair_kind::inconsistent_orientation:
-        return "inconsistent_orientation";
-    case repair_kind::not_orientable:
-        return "not_orientable";
-    case repair_kind::non_manifold_facet:
-        return "non_manifold_facet";
-    case repair_kind::non_manifold_vertex:
-        return "non_manifold_vertex";
-    case repair_kind::contradicting_normal:
-        return "contradicting_normal";
-    }
-    return "unknown";
+    return taut::impl::name_in<repair_kind::contradicting_normal>(
+        {"index_out_of_range", "non_finite", "repeated_vertex", "degenerate_cell", "duplicate_cell",
+         "unreferenced_vertex", "coincident_vertex", "inconsistent_orientation", "not_orientable", "non_manifold_facet",
+         "non_manifold_vertex", "contradicting_normal"},
+        kind);
 }
 
 } // namespace taut

@@ -80,9 +80,9 @@ private:
     void require_sizes() const
     {
         constexpr std::size_t limit = std::numeric_limits<idx>::max();
-        if (triangles_.empty()) throw mesh_error(describe<triangle>(mesh_fault::empty, {}));
+        if (triangles_.empty()) throw mesh_error(describe<triangle>(mesh_error::empty, {}));
         if (points_.size() > limit || triangles_.size() > limit / 3)
-            throw mesh_error(describe<triangle>(mesh_fault::too_large, {}));
+            throw mesh_error(describe<triangle>(mesh_error::too_large, {}));
     }
 
     void note(repair_kind kind, std::vector<idx> ids)

@@ -24,7 +24,7 @@ report minimize(Objective& f, typename Objective::point& x, const params& p = {}
         if constexpr (impl::has_hessian<Objective>)
         {
             p.require_newton_search();
-            return newton(f, x, p.tuning.newton, p.newton_common(), ask);
+            return newton(f, x, p.tuning.newton, p.common(), ask);
         }
         if (p.method == method::newton) throw parameter_error("method", "newton needs an objective with a Hessian");
         break;

@@ -47,13 +47,12 @@ public:
     using point = typename Objective::point;
     using vector = vector_of<Objective>;
 
-    newton_loop(Objective& f, point& x, const newton_params& params, const newton_common_params& common,
-                const observer& ask)
+    newton_loop(Objective& f, point& x, const newton_params& params, const descent_params& common, const observer& ask)
         : f_(f),
           x_(x),
           params_(params),
           common_(common),
-          rounding_(std::max(f_.rounding(), common.search.rounding)),
+          rounding_(std::max(f_.rounding(), common.line_search.tuning.rounding)),
           monitor_(ask, common.stopping.time_limit),
           test_(common.stopping, rounding_, patience, f_.size(0)),
           pcg_(f.space(), params.pcg),
@@ -167,7 +166,7 @@ private:
     std::optional<trial> search()
     {
         if (!(model_.slope < 0)) return std::nullopt;
-        const double armijo = common_.search.sufficient_decrease;
+        const double armijo = common_.line_search.wolfe.sufficient_decrease;
         constexpr int rounds = 8;
         double unit = 1, longest = 1;
         const bool far = !exact_;
@@ -199,7 +198,7 @@ private:
     /// Values at unit * a with a unit of at most `most`, which is returned.
     double first_values(std::span<const double> a, std::span<double> values, double most)
     {
-        const double fraction = common_.search.barrier_fraction;
+        const double fraction = common_.line_search.barrier_fraction;
         full_square_.reset();
         if (near_end_ && most == 1)
             if (const auto r = f_.capped_values(x_, d_, fraction, a, values, full_, full_gradient_))
@@ -332,7 +331,7 @@ private:
     full_objective<Objective> f_;
     point& x_;
     newton_params params_;
-    newton_common_params common_;
+    descent_params common_;
     double rounding_;
     monitor monitor_;
     stopping_test test_;
@@ -354,17 +353,12 @@ private:
     report report_;
 };
 
-} // namespace taut::solve::impl
-
-namespace taut::solve::impl
-{
-
 /// Minimises f from x by truncated Newton's method with the preconditioner of the objective. x ends at the best
 /// iterate whatever the reason to stop. Throws parameter_error, and exceptions of f and the observer.
 template <objective Objective>
     requires has_hessian<Objective> report newton(Objective& f, typename Objective::point& x,
-                                                  const newton_params& params = {},
-                                                  const newton_common_params& common = {}, const observer& ask = {})
+                                                  const newton_params& params = {}, const descent_params& common = {},
+                                                  const observer& ask = {})
     {
         params.validate();
         common.validate();

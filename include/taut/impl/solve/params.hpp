@@ -47,7 +47,7 @@ namespace taut::solve::impl
 // solve/line/line_search.hpp has their names, and includes them
 
 /// Line search parameters of the descent methods. Newton's method has a search of its own, which takes
-/// wolfe.sufficient_decrease, barrier_fraction and rounding alone (newton_search_params).
+/// wolfe.sufficient_decrease, barrier_fraction and rounding alone.
 struct line_search_params
 {
     /// hybrid, the default, where values are cheaper than gradients; strong_wolfe where they come together anyway.
@@ -211,35 +211,6 @@ struct conjugate_gradient_params
     }
 };
 
-/// Line search parameters of Newton's method: the best of the full step and fractions of it. As in line_search_params.
-struct newton_search_params
-{
-    double sufficient_decrease = wolfe_params{}.sufficient_decrease;
-    double barrier_fraction = line_search_params{}.barrier_fraction;
-    double rounding = line_tuning{}.rounding;
-};
-
-/// Common parameters of Newton's method and the others.
-struct newton_common_params
-{
-    newton_search_params search = {};
-    stopping_params stopping = {};
-
-    void validate() const
-    {
-        line_search().validate();
-        stopping.validate();
-    }
-
-    /// A line search with the same numbers.
-    line_search_params line_search() const
-    {
-        return {.wolfe = {.sufficient_decrease = search.sufficient_decrease},
-                .barrier_fraction = search.barrier_fraction,
-                .tuning = {.rounding = search.rounding}};
-    }
-};
-
 } // namespace taut::solve::impl
 
 namespace taut::solve
@@ -283,20 +254,15 @@ struct params
     void require_newton_search() const
     {
         const impl::descent_params unset;
-        if (line_search == newton_common().line_search() && tuning.first_length == unset.first_length &&
+        const impl::line_search_params used{.wolfe = {.sufficient_decrease = line_search.wolfe.sufficient_decrease},
+                                            .barrier_fraction = line_search.barrier_fraction,
+                                            .tuning = {.rounding = line_search.tuning.rounding}};
+        if (line_search == used && tuning.first_length == unset.first_length &&
             tuning.linearize_after == unset.linearize_after)
             return;
         throw parameter_error("line_search", "Newton's method takes wolfe.sufficient_decrease, barrier_fraction and "
                                              "rounding alone; leave the rest as "
                                              "they are, or choose another method");
-    }
-
-    impl::newton_common_params newton_common() const
-    {
-        return {.search = {.sufficient_decrease = line_search.wolfe.sufficient_decrease,
-                           .barrier_fraction = line_search.barrier_fraction,
-                           .rounding = line_search.tuning.rounding},
-                .stopping = stopping};
     }
 
     impl::descent_params common() const

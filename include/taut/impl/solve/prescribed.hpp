@@ -63,11 +63,6 @@ struct prescribed_report
     int products = 0;       ///< Hessian products
 };
 
-} // namespace taut::solve::impl
-
-namespace taut::solve::impl
-{
-
 /// Brings coordinates of a point to prescribed values, within the domain of f, while the others follow: Newton's method
 /// with prescribed displacements (Dirichlet increments),
 ///

@@ -4,6 +4,8 @@
 #include <ostream>
 #include <string_view>
 
+#include <taut/impl/core/name_in.hpp>
+
 namespace taut::solve
 {
 
@@ -44,32 +46,10 @@ namespace taut::solve
 /// Stable name of a reason, for programs.
 constexpr std::string_view to_string(stop reason) noexcept
 {
-    switch (reason)
-    {
-    case stop::gradient:
-        return "gradient";
-    case stop::decrement:
-        return "decrement";
-    case stop::settled:
-        return "settled";
-    case stop::decrease:
-        return "decrease";
-    case stop::step:
-        return "step";
-    case stop::iterations:
-        return "iterations";
-    case stop::line_search:
-        return "line search";
-    case stop::barrier:
-        return "barrier";
-    case stop::time:
-        return "time";
-    case stop::user:
-        return "user";
-    case stop::not_finite_start:
-        return "start not finite";
-    }
-    return "unknown";
+    return taut::impl::name_in<stop::not_finite_start>({"gradient", "decrement", "settled", "decrease", "step",
+                                                        "iterations", "line search", "barrier", "time", "user",
+                                                        "start not finite"},
+                                                       reason);
 }
 
 inline std::ostream& operator<<(std::ostream& stream, stop reason)

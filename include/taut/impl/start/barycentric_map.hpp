@@ -82,7 +82,7 @@ start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const b
 {
     const auto loops = boundary_loops(m, f);
     if (loops.empty())
-        throw mesh_error(mesh_fault::closed_surface, {}, "barycentric_map: the surface is closed; cut it open");
+        throw mesh_error(mesh_error::closed_surface, {}, "barycentric_map: the surface is closed; cut it open");
     if (params.stretch_rounds < 0 || params.stretch_rounds > 20)
         throw parameter_error("stretch_rounds", "must be 0 to 20");
     // Everything is computed in units of the model: squares of lengths neither overflow nor vanish.

@@ -115,7 +115,7 @@ inline start_map conformal_start(const mesh<triangle>& m, const facet_table& f,
     params.validate();
     const auto loops = boundary_loops(m, f);
     if (loops.empty())
-        throw mesh_error(mesh_fault::closed_surface, {}, "conformal_start: the surface is closed; cut it open");
+        throw mesh_error(mesh_error::closed_surface, {}, "conformal_start: the surface is closed; cut it open");
     const double unit = unit_scale(m);
     const mesh<triangle> surface = scaled(m, unit);
     const ideal_elements<triangle> ideal(surface);

@@ -144,7 +144,7 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
     const auto f = facets(surface);
     const auto loops = boundary_loops(surface, f);
     if (loops.empty())
-        throw mesh_error(mesh_fault::closed_surface, {}, "robust_start: the surface is closed; cut it open");
+        throw mesh_error(mesh_error::closed_surface, {}, "robust_start: the surface is closed; cut it open");
     const ideal_elements<triangle> ideal(surface);
     std::vector<char> fixed;
     if (params.fixed_boundary) fixed = boundary_flags(m.points().size(), loops);

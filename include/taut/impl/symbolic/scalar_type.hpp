@@ -31,11 +31,6 @@ namespace taut::impl
 template <class T>
 concept traceable = std::same_as<T, float> || std::same_as<T, double> || std::same_as<T, idx>;
 
-} // namespace taut::impl
-
-namespace taut::impl
-{
-
 /// The scalar_type of a host type.
 template <class T>
     requires(traceable<T> || std::same_as<T, bool>)

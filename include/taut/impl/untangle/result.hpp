@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include <taut/impl/core/name_in.hpp>
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/objective/stage_report.hpp>
 
@@ -24,16 +25,7 @@ enum class untangle_outcome
 /// Stable name of an outcome, for programs.
 constexpr std::string_view to_string(untangle_outcome outcome) noexcept
 {
-    switch (outcome)
-    {
-    case untangle_outcome::injective:
-        return "injective";
-    case untangle_outcome::infeasible:
-        return "infeasible";
-    case untangle_outcome::gave_up:
-        return "gave up";
-    }
-    return "unknown";
+    return taut::impl::name_in<untangle_outcome::gave_up>({"injective", "infeasible", "gave up"}, outcome);
 }
 
 inline std::ostream& operator<<(std::ostream& out, untangle_outcome outcome)

@@ -14,7 +14,7 @@
 #include <taut/impl/mesh/facets.hpp>
 #include <taut/impl/mesh/mesh.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Wishes for the places of seams: they make lengths count more or less. The bounds of distortion hold all the same.
@@ -45,11 +45,6 @@ struct seam_wishes
             if (!(w >= 1e-3 && w <= 1e3)) throw parameter_error("weights", "must be 0.001 to 1000");
     }
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// What a unit of length of a seam counts along each side by these wishes: one number per side, the same on both.
 /// open: vertex_openness(), if wishes.hide is above 0

@@ -58,11 +58,6 @@ private:
     std::array<std::byte, 8> bytes_{};
 };
 
-} // namespace taut::impl
-
-namespace taut::impl
-{
-
 /// Real numbers on a device, whatever holds them; it refers to them.
 class real_view : public impl::argument
 {

@@ -74,7 +74,7 @@ void pin_fixed(const part<Element>& p, const std::vector<std::int64_t>& fixed, k
             for (std::size_t i = 0; i < numbers.size(); ++i)
             {
                 if (numbers[i] < 0)
-                    throw constraint_error(constraint_fault::out_of_range, {},
+                    throw constraint_error(constraint_error::out_of_range, {},
                                            "fixed vertex " + std::to_string(fixed[i]) +
                                                " is none of the mesh; count from 0");
                 const auto at = p.place_of(numbers[i]);

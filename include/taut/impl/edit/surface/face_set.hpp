@@ -24,10 +24,10 @@ public:
     {
         if (!sides.manifold())
             throw mesh_error(
-                mesh_fault::non_manifold_facet, {sides.crowds[0].begin(), sides.crowds[0].end()},
+                mesh_error::non_manifold_facet, {sides.crowds[0].begin(), sides.crowds[0].end()},
                 "an edge of the surface has three or more triangles; `taut check` lists them, repair them");
         if (!sides.oriented())
-            throw mesh_error(mesh_fault::inconsistent_orientation, {sides.clash[0][0] / 3, sides.clash[0][1] / 3},
+            throw mesh_error(mesh_error::inconsistent_orientation, {sides.clash[0][0] / 3, sides.clash[0][1] / 3},
                              "neighbours are oriented differently; turn one of each pair over");
     }
 

@@ -65,7 +65,7 @@ struct polygon_soup
         if (!non_finite && !is_finite(p))
         {
             non_finite =
-                mesh_error(mesh_fault::non_finite, {static_cast<idx>(points.size())},
+                mesh_error(mesh_error::non_finite, {static_cast<idx>(points.size())},
                            place_prefix(path, where()) + "vertex " + std::to_string(points.size()) + is_not_finite);
             of_file = path;
         }
@@ -94,7 +94,7 @@ struct polygon_soup
             note(
                 [&]
                 {
-                    return mesh_error(mesh_fault::repeated_vertex, {static_cast<idx>(sizes.size())},
+                    return mesh_error(mesh_error::repeated_vertex, {static_cast<idx>(sizes.size())},
                                       place_prefix(path, where()) + what);
                 });
         }
@@ -113,7 +113,7 @@ struct polygon_soup
                 [&]
                 {
                     return mesh_error(
-                        mesh_fault::index_out_of_range, {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
+                        mesh_error::index_out_of_range, {static_cast<idx>(sizes.size()), static_cast<idx>(v)},
                         place_prefix(path, where()) + "a face names vertex " + std::to_string(v) + ", but there are " +
                             std::to_string(std::max(points.size(), announced)) + ", counted from 0");
                 });
@@ -207,7 +207,7 @@ private:
             if (v >= 0 && v < count && v < first && !is_finite(points[static_cast<std::size_t>(v)])) first = v;
         if (first == std::numeric_limits<idx>::max()) return std::nullopt;
         if (non_finite->ids()[0] == first) return non_finite;
-        return mesh_error(mesh_fault::non_finite, {first},
+        return mesh_error(mesh_error::non_finite, {first},
                           of_file + ": vertex " + std::to_string(first) + is_not_finite);
     }
 };

@@ -366,11 +366,6 @@ inline plain_mesh plain_subdivided(const volume_file& file, const taut::impl::su
     return m;
 }
 
-} // namespace taut::io::impl
-
-namespace taut::io::impl
-{
-
 volume_file subdivided(const volume_file& file, const taut::impl::subdivision& how)
 {
     if (static_cast<std::size_t>(how.original_count()) != file.points.size())

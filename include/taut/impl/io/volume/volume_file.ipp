@@ -75,14 +75,14 @@ mesh<Element> cells_as(const volume_file& file, cell_kind wanted, const std::str
                       std::copy_n(corners.begin(), cell.size(), cell.begin());
                   });
     if (cells.empty())
-        throw mesh_error(mesh_fault::empty, {}, file.path + ": no " + shape_of(wanted).names + "; give a mesh of them");
+        throw mesh_error(mesh_error::empty, {}, file.path + ": no " + shape_of(wanted).names + "; give a mesh of them");
     return {file.at_rest(), std::move(cells)};
 }
 
 inline void require_planar(const volume_file& file)
 {
     if (file.dimension != 2)
-        throw mesh_error(mesh_fault::empty, {},
+        throw mesh_error(mesh_error::empty, {},
                          file.path + ": no planar mesh; give one without volume cells, all of whose z are equal");
 }
 
@@ -197,7 +197,7 @@ impl::corner_simplices<Element> corner_simplices_of(const volume_file& file, std
                                     add(t, impl::regular_edges(kind, t));
                         });
     if (simplices.empty())
-        throw mesh_error(mesh_fault::empty, {},
+        throw mesh_error(mesh_error::empty, {},
                          file.path + (Element::dimension == 2 ? ": no triangles or quads" : ": no volume cells") +
                              "; give a mesh of them");
     mesh<Element> result(file.at_rest(), std::move(simplices));

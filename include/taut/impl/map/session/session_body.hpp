@@ -36,7 +36,7 @@ public:
     map places_of(std::span<const idx> vertices) const
     {
         if (last.x.empty())
-            throw constraint_error(constraint_fault::no_position, {}, "there is no map yet; call solve() first");
+            throw constraint_error(constraint_error::no_position, {}, "there is no map yet; call solve() first");
         std::vector<idx> bad;
         map places;
         for (const idx v : vertices)
@@ -44,7 +44,7 @@ public:
                 bad.push_back(v);
             else
                 places.push_back(last.x[static_cast<std::size_t>(v)]);
-        refuse_vertices(constraint_fault::out_of_range, std::move(bad),
+        refuse_vertices(constraint_error::out_of_range, std::move(bad),
                         "that the mesh does not have; it has " + std::to_string(last.x.size()) + ", counted from 0");
         return places;
     }

@@ -31,12 +31,12 @@ void require_deformable(const mesh<Element>& m, const deform_params<Element>& pa
         check(m, {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
     if (params.shapes == target_shapes::regular) // which need no rest shape
         std::erase_if(found, [](const mesh_finding& f)
-                      { return f.fault == mesh_fault::degenerate_cell || f.fault == mesh_fault::inverted_cell; });
+                      { return f.fault == mesh_error::degenerate_cell || f.fault == mesh_error::inverted_cell; });
     if constexpr (D == 3) // its hierarchy knows no facets
-        std::erase_if(found, [](const mesh_finding& f) { return f.fault == mesh_fault::non_manifold_vertex; });
+        std::erase_if(found, [](const mesh_finding& f) { return f.fault == mesh_error::non_manifold_vertex; });
     if (!params.owners.empty()) // which share facets
         std::erase_if(found, [](const mesh_finding& f)
-                      { return f.fault != mesh_fault::degenerate_cell && f.fault != mesh_fault::inverted_cell; });
+                      { return f.fault != mesh_error::degenerate_cell && f.fault != mesh_error::inverted_cell; });
     if (!found.empty()) throw mesh_error(describe<Element>(found[0].fault, found[0].ids, params.owners));
     if constexpr (D == 2)
         for (const vec3& p : m.points())
@@ -105,7 +105,7 @@ session_setup<Element> shape_setup(const mesh<Element>& m, const deform_params<E
     for (const auto& s : params.slides)
         if (s.vertex < 0 || s.vertex >= rest.vertex_count() || params.constraints.held(s.vertex) != 0)
             bad.push_back(s.vertex);
-    refuse_vertices(constraint_fault::contradictory, std::move(bad),
+    refuse_vertices(constraint_error::contradictory, std::move(bad),
                     "that the mesh does not have, or that is pinned, among the slides; leave it out");
     params.constraints.on(rest).require_near(unit);
 

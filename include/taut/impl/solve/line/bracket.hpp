@@ -22,11 +22,6 @@ struct bracket_triplet
     double value = 0; ///< phi(b)
 };
 
-} // namespace taut::solve::impl
-
-namespace taut::solve::impl
-{
-
 /// Several trial steps in one pass: a ladder from a step by a factor, no rung beyond the bound.
 class ladder
 {
@@ -94,11 +89,6 @@ bracket_triplet bracket_down(Line& phi, line_point at, double growth, int passes
     }
     return {};
 }
-
-} // namespace taut::solve::impl
-
-namespace taut::solve::impl
-{
 
 /// Brackets a minimum of phi from a first trial of known value: a ladder of ever longer steps while the value falls,
 /// or of ever shorter ones until it is below phi(0), each `growth` times the last. Lines with batches evaluate several

@@ -32,11 +32,6 @@ void minimize_line(Line& phi, const line_point& first, const exact_params& p, bo
     brent([&](double a) { return phi.value(a); }, t.a, t.b, t.c, t.value, tolerance);
 }
 
-} // namespace taut::solve::impl
-
-namespace taut::solve::impl
-{
-
 /// The paper's hybrid line search (section 3.2): the full step of a well-scaled direction if it has the strong Wolfe
 /// conditions, which costs one value and one gradient and is the common case; else a minimum along the line without
 /// derivatives, by a bracket and Brent's method, and the gradient there only.

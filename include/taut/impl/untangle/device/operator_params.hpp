@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include <taut/impl/core/error.hpp>
+#include <taut/impl/core/name_in.hpp>
 #include <taut/impl/core/observer.hpp>
 
 namespace taut
@@ -96,24 +97,8 @@ enum class operator_stop
 
 constexpr std::string_view to_string(operator_stop why) noexcept
 {
-    switch (why)
-    {
-    case operator_stop::untangled:
-        return "untangled";
-    case operator_stop::iterations:
-        return "iterations";
-    case operator_stop::step:
-        return "step";
-    case operator_stop::not_finite:
-        return "not finite";
-    case operator_stop::rounding:
-        return "rounding";
-    case operator_stop::time:
-        return "time";
-    case operator_stop::user:
-        return "user";
-    }
-    return "unknown";
+    return impl::name_in<operator_stop::user>(
+        {"untangled", "iterations", "step", "not finite", "rounding", "time", "user"}, why);
 }
 
 inline std::ostream& operator<<(std::ostream& stream, operator_stop why)

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/core/name_in.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
 namespace taut
@@ -31,32 +32,10 @@ enum class infeasibility_kind
 /// Stable identifier of a kind, for programs.
 constexpr const char* to_string(infeasibility_kind kind)
 {
-    switch (kind)
-    {
-    case infeasibility_kind::inverted_element:
-        return "inverted_element";
-    case infeasibility_kind::flat_element:
-        return "flat_element";
-    case infeasibility_kind::empty_star:
-        return "empty_star";
-    case infeasibility_kind::wound_star:
-        return "wound_star";
-    case infeasibility_kind::outline_measure:
-        return "outline_measure";
-    case infeasibility_kind::outline_turning:
-        return "outline_turning";
-    case infeasibility_kind::outline_winding:
-        return "outline_winding";
-    case infeasibility_kind::outside_boundary:
-        return "outside_boundary";
-    case infeasibility_kind::crossing_edges:
-        return "crossing_edges";
-    case infeasibility_kind::crowded_edge:
-        return "crowded_edge";
-    case infeasibility_kind::not_globally_injective:
-        return "not_globally_injective";
-    }
-    return "unknown";
+    return taut::impl::name_in<infeasibility_kind::not_globally_injective>(
+        {"inverted_element", "flat_element", "empty_star", "wound_star", "outline_measure", "outline_turning",
+         "outline_winding", "outside_boundary", "crossing_edges", "crowded_edge", "not_globally_injective"},
+        kind);
 }
 
 } // namespace taut
@@ -75,8 +54,8 @@ struct infeasibility_finding
 /// Proof that pins are infeasible, found before anything is solved.
 struct infeasibility
 {
-    std::vector<impl::infeasibility_finding> proofs;   ///< each is enough: no map is locally injective
-    std::vector<impl::infeasibility_finding> warnings; ///< properties that no map with these pins has
+    std::vector<infeasibility_finding> proofs;   ///< each is enough: no map is locally injective
+    std::vector<infeasibility_finding> warnings; ///< properties that no map with these pins has
 
     /// True if infeasibility is proved.
     explicit operator bool() const { return !proofs.empty(); }
