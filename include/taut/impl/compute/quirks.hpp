@@ -11,7 +11,7 @@
 /// - 3.1 gives wrong results for barriers inside loops (a min/max tree over two local arrays; Oclgrind runs it right)
 /// and
 ///   compiles several trees in one kernel in exponential time. Our kernels hold at most one barrier outside of loops;
-///   the exceptions with TEAM > 1 are invert_dense of block_sparse.cl, which comes out right there (tests compare it),
+///   the exceptions with TEAM > 1 are invert_dense of block_setup.cl, which comes out right there (tests compare it),
 ///   and charts.cl, which does not: its form for GPUs is tested under Oclgrind.
 /// - It reserves memory when a buffer is first touched, so an allocation beyond the device's limits "succeeds"; buffers
 ///   check the limits themselves.

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/kernels/block_sparse.hpp>
 #include <taut/impl/compute/lane_form.hpp>
 #include <taut/impl/compute/program/few_functions.hpp>
 #include <taut/impl/compute/vector_space.hpp>
@@ -19,7 +18,10 @@
 namespace taut::impl
 {
 
-/// Options of kernels/block_sparse.cl for D x D blocks and interpolations of K weights per row.
+/// The program of all kernels on matrices: kernels/block_sparse.cl and block_setup.cl.
+const std::string& block_program();
+
+/// Its build options for D x D blocks and interpolations of K weights per row.
 std::string block_options(scalar_type real, int D, int K, lane_form form);
 
 late_kernel transfer_kernel(queue q, const char* name, scalar_type real, int D, int K, lane_form form);
@@ -30,7 +32,7 @@ late_kernel block_kernel(const queue& q, const char* name, scalar_type real, int
 /// Says that matrices of simplices will be needed, some time before they are.
 inline void expect_block_kernels(const queue& q, scalar_type real, int D)
 {
-    q.state()->cache.expect(kernels::block_sparse, block_options(real, D, D + 1, lane_form::for_device(q.device())));
+    q.state()->cache.expect(block_program(), block_options(real, D, D + 1, lane_form::for_device(q.device())));
 }
 
 /// A square block-sparse matrix on a device, with D x D blocks of float or double, and the inverses of its diagonal

@@ -10,10 +10,18 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/compute/kernels/block_setup.hpp>
+#include <taut/impl/compute/kernels/block_sparse.hpp>
 #include <taut/impl/sparse/block_matrix.hpp>
 
 namespace taut::impl
 {
+
+const std::string& block_program()
+{
+    static const std::string text = std::string(kernels::block_sparse) + kernels::block_setup;
+    return text;
+}
 
 std::string block_options(scalar_type real, int D, int K, lane_form form)
 {
@@ -30,7 +38,7 @@ std::string block_options(scalar_type real, int D, int K, lane_form form)
 late_kernel transfer_kernel(queue q, const char* name, scalar_type real, int D, int K, lane_form form)
 {
     return late_kernel([=]() mutable
-                       { return kernel(q, kernels::block_sparse, name, block_options(real, D, K, form), real); });
+                       { return kernel(q, block_program(), name, block_options(real, D, K, form), real); });
 }
 
 late_kernel block_kernel(const queue& q, const char* name, scalar_type real, int D, lane_form form)
