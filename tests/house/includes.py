@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
-"""includes.py FOLDER: headers include what they use of the standard library, as far as names tell."""
+"""includes.py FOLDER: headers include what they use of the standard library, as far as names tell; bodies (.ipp) have
+what their own header includes."""
 import pathlib
 import re
 import sys
@@ -34,7 +35,9 @@ rules = [(header, names, re.compile(f"std::({names})")) for header, names in rul
 missing = 0
 for file in sorted(pathlib.Path(sys.argv[1]).rglob("*.[hi]pp")):
     text = file.read_text()
-    code = "\n".join(line for line in text.split("\n") if not line.lstrip(" ").startswith("//"))
+    for own in re.findall(rf"#include <taut/([\w/]+/{file.stem}\.hpp)>", text) if file.suffix == ".ipp" else []:
+        text += (pathlib.Path(sys.argv[1]) / own).read_text()
+    code = "\n".join(line for line in file.read_text().split("\n") if not line.lstrip(" ").startswith("//"))
     for header, names, used in rules:
         if used.search(code) and f"\n#include <{header}>" not in text:
             print(f"{file}: uses std::({names}) without #include <{header}>")

@@ -2,10 +2,7 @@
 #pragma once
 
 #include <array>
-#include <chrono>
-#include <functional>
 #include <limits>
-#include <string_view>
 #include <vector>
 
 #include <taut/impl/atlas/flatten_charts.hpp>

@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/atlas/chart_batch.hpp>
 #include <taut/impl/atlas/flatten_charts.hpp>

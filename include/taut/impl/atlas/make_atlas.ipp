@@ -3,13 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
@@ -21,7 +18,6 @@
 #include <taut/impl/atlas/short_charts.hpp>
 #include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
-#include <taut/impl/mesh/validate.hpp>
 #include <taut/impl/packing/certificate.hpp>
 #include <taut/impl/packing/outlines.hpp>
 #include <taut/impl/packing/pieces.hpp>

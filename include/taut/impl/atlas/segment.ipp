@@ -4,11 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <numeric>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/atlas/chart_moments.hpp>
 #include <taut/impl/atlas/cluster_tree.hpp>

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <map>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 

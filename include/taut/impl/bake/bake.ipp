@@ -2,14 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <span>
 #include <string>
-#include <vector>
 
 #include <taut/impl/bake/bake.hpp>
 #include <taut/impl/bake/fill_gutters.hpp>

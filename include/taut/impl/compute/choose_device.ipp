@@ -4,16 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <optional>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/compute/choose_device.hpp>
-#include <taut/impl/compute/errors.hpp>
 #include <taut/impl/compute/one_process.hpp>
 #include <taut/impl/compute/opencl.hpp>
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <ostream>
 #include <string>
-#include <utility>
 
 #include <taut/impl/compute/cl.hpp>
 

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <ostream>
-#include <string>
-
 #include <taut/impl/compute/device.hpp>
 #include <taut/impl/compute/opencl.hpp>
 

@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <taut/impl/compute/kernel.hpp>
 #include <taut/impl/compute/program/vector_program.hpp>

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <atomic>
-#include <cstddef>
 #include <limits>
-#include <span>
-#include <string>
 #include <vector>
 
 #include <taut/impl/compute/gather.hpp>

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <chrono>
-#include <cstddef>
-#include <string>
-#include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/compute/program_cache.hpp>
 

@@ -5,8 +5,6 @@
 #include <memory>
 #include <ostream>
 #include <string>
-#include <type_traits>
-#include <utility>
 
 #include <taut/impl/compute/choose_device.hpp>
 #include <taut/impl/compute/program/program_builder.hpp>

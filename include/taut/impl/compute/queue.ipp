@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <cstdlib>
-#include <memory>
 #include <string_view>
 #include <type_traits>
 #include <utility>

@@ -2,10 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <utility>
 
 #include <taut/impl/compute/queue_state.hpp>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
-
 #include <taut/impl/compute/device.hpp>
 
 /// The oddities of platforms, by name. Code and tests ask these predicates instead of hiding workarounds.

@@ -2,14 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
-#include <span>
 #include <type_traits>
 #include <utility>
-#include <variant>
-#include <vector>
 
 #include <taut/impl/compute/real_buffer.hpp>
 

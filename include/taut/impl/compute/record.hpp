@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <iterator>
-#include <limits>
 #include <memory>
 #include <span>
 #include <string>

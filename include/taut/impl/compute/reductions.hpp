@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
-#include <limits>
-#include <numeric>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <taut/impl/compute/kernel.hpp>

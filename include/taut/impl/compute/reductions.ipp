@@ -2,16 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <numeric>
-#include <span>
 #include <string>
-#include <vector>
 
 #include <taut/impl/compute/reductions.hpp>
 

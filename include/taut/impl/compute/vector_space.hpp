@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
-#include <string>
-#include <type_traits>
 #include <vector>
 
 #include <taut/impl/compute/reductions.hpp>

@@ -3,12 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
-#include <memory>
-#include <span>
 #include <string>
-#include <type_traits>
-#include <vector>
 
 #include <taut/impl/compute/vector_space.hpp>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include <taut/impl/core/error.hpp>

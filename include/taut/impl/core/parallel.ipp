@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
-#include <cstddef>
 #include <cstdlib>
 #include <exception>
 #include <string_view>

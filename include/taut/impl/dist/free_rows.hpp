@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <memory>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/dist/fixed_part.hpp>

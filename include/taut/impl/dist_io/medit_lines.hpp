@@ -9,7 +9,6 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include <taut/impl/dist_io/line_layout.hpp>
 #include <taut/impl/io/file/scanner.hpp>

@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <string>
 #include <utility>
 
 #include <taut/impl/dist_io/foam_volume.hpp>

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/edit/surface/split_chords.hpp>
 

@@ -2,12 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>

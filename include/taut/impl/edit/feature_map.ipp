@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <limits>
-#include <span>
 #include <string>
-#include <vector>
 
 #include <taut/impl/compute/buffer.hpp>
 #include <taut/impl/compute/kernel.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
-
 #include <taut/impl/edit/attach/laid_feature.hpp>
 #include <taut/impl/edit/parameterize_feature.hpp>
 #include <taut/impl/edit/paste.ipp>

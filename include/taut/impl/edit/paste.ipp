@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <memory>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/edit/paste.hpp>
 #include <taut/impl/edit/pasted.hpp>

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <memory>
-#include <span>
-
 #include <taut/impl/edit/rbf.hpp>
 #include <taut/impl/edit/rbf_system.hpp>
 

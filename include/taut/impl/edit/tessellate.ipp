@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <queue>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/feature_map.hpp>
 #include <taut/impl/edit/paste_error.hpp>
 #include <taut/impl/edit/surface/feature_refinement.hpp>
 #include <taut/impl/edit/surface/polygon_filling.hpp>

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <string>
-#include <vector>
 
 #include <taut/impl/edit/paste.hpp>
 #include <taut/impl/io/atomic_file.hpp>

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include <taut/impl/exact/certify.hpp>
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 

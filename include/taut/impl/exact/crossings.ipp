@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <limits>
-#include <span>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/exact/crossings.hpp>
 

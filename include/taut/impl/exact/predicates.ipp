@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-
 #include <taut/impl/exact/predicates.hpp>
 
 namespace taut::impl

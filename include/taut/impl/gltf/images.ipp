@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <taut/impl/gltf/images.hpp>
 #include <taut/impl/gltf/write_gltf.ipp>
 

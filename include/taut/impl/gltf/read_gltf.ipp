@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -16,7 +15,6 @@
 #include <taut/impl/io/surface/point_numbers.hpp>
 #include <taut/impl/mesh/mesh_error.hpp>
 #include <utility>
-#include <vector>
 
 namespace taut::io::impl
 {

@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <span>
-#include <vector>
 
 #include <taut/impl/hierarchy/collapse.hpp>
 

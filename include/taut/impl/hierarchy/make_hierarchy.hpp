@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <numeric>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/hierarchy/hierarchy.hpp>
 #include <taut/impl/hierarchy/thinning.hpp>

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include <taut/impl/hierarchy/reinsert.hpp>
 
 namespace taut::impl

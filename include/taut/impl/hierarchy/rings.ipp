@@ -2,13 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <cstddef>
-#include <span>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/hierarchy/rings.hpp>
 

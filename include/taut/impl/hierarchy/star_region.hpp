@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include <taut/impl/hierarchy/flat_star.hpp>
 

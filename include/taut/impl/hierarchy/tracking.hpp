@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/hierarchy/round.hpp>
 

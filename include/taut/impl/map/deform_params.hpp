@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
-#include <limits>
 #include <vector>
 
 #include <taut/impl/constrain/constraints.hpp>

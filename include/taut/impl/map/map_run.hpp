@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/compute/queue.hpp>
 #include <taut/impl/constrain/surface_constraints.hpp>

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <limits>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/constrain/place_map.hpp>
 #include <taut/impl/map/attempt.hpp>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <vector>
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <numeric>
-#include <span>
 #include <vector>
 
 #include <taut/impl/energy/any_energy.hpp>

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/mesh/facets.hpp>

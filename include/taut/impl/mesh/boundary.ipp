@@ -2,11 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/mesh/boundary.hpp>
 

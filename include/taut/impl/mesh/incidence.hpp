@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/core/csr.hpp>

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-
 #include <taut/impl/mesh/tetrahedron.hpp>
 
 namespace taut

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
-
 #include <taut/impl/mesh/validate.hpp>
 
 namespace taut

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <functional>
-#include <memory>
 #include <numeric>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/objective/nonlinear_elimination.hpp>
 

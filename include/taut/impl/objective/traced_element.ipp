@@ -1,13 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <limits>
-#include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/objective/traced_element.hpp>
 

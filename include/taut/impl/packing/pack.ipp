@@ -2,18 +2,14 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <numeric>
 #include <random>
 #include <set>
-#include <span>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/parallel.hpp>

@@ -2,16 +2,12 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/core/short_number.hpp>

@@ -7,7 +7,6 @@
 #include <locale>
 #include <ostream>
 #include <sstream>
-#include <string>
 #include <utility>
 #include <vector>
 

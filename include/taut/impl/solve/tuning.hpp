@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include <taut/impl/core/error.hpp>
 
 /// Numbers of the solvers that no user has a reason to set: tests and measurements do.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 
 #include <taut/impl/sparse/assembly_lists.hpp>
 #include <taut/impl/sparse/block_matrix.hpp>

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <limits>
-#include <memory>
-#include <span>
-#include <string>
-#include <type_traits>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/compute/kernels/block_setup.hpp>
 #include <taut/impl/compute/kernels/block_sparse.hpp>

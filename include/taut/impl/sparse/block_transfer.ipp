@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <optional>
-
 #include <taut/impl/sparse/block_transfer.hpp>
 
 namespace taut::impl

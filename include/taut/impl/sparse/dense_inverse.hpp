@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <type_traits>
 #include <vector>
 
 #include <taut/impl/sparse/block_matrix.hpp>

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <type_traits>
-#include <vector>
 
 #include <taut/impl/sparse/dense_inverse.hpp>
 

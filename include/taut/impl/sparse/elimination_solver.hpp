@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/core/error.hpp>

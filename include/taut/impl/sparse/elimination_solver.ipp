@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/sparse/elimination_solver.hpp>
 

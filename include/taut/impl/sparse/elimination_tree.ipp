@@ -2,11 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/sparse/elimination_tree.hpp>
 

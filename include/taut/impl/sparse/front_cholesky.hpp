@@ -7,10 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
-#include <numeric>
 #include <span>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/core/parallel.hpp>

@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <cstddef>
-#include <functional>
-#include <memory>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/sparse/front_cholesky.hpp>
 

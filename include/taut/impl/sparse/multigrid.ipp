@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <utility>
-#include <vector>
-
 #include <taut/impl/sparse/multigrid.hpp>
 
 namespace taut::impl

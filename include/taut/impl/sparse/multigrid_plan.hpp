@@ -2,9 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/sparse/transfer_lists.hpp>

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <numeric>
-#include <span>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/sparse/multigrid_plan.hpp>
 

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
-#include <optional>
-#include <vector>
 
 #include <taut/impl/sparse/transfer_lists.hpp>
 

@@ -3,9 +3,7 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <taut/impl/core/csr.hpp>

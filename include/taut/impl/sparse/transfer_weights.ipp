@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <limits>
-#include <span>
 #include <string>
-#include <vector>
 
 #include <taut/impl/sparse/transfer_weights.hpp>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
-
 #include <taut/impl/start/barycentric_map.hpp>
 
 namespace taut::impl

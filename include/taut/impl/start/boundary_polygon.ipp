@@ -2,13 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/start/boundary_polygon.hpp>
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/start/coarse_start.hpp>

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include <taut/impl/start/outline.hpp>
 
 namespace taut::impl

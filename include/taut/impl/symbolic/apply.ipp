@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <type_traits>
-
 #include <taut/impl/symbolic/apply.hpp>
 
 namespace taut::impl

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <optional>
-#include <utility>
 
 #include <taut/impl/symbolic/apply.hpp>
 #include <taut/impl/symbolic/tape.hpp>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include <taut/impl/core/single.hpp>
 #include <taut/impl/symbolic/build.hpp>
 

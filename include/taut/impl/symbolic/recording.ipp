@@ -3,11 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdint>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/symbolic/recording.hpp>
 

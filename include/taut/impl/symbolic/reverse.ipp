@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <span>
-#include <vector>
-
 #include <taut/impl/symbolic/reverse.hpp>
 
 namespace taut::impl

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
-#include <cmath>
-#include <cstddef>
-#include <functional>
 #include <memory>
-#include <optional>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/untangle/coarse_stage.hpp>
 

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/untangle/convex_corners.hpp>
 

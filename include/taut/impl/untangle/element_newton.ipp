@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <memory>
-
 #include <taut/impl/untangle/element_newton.hpp>
 
 namespace taut::impl

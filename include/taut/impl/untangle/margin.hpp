@@ -2,8 +2,6 @@
 #pragma once
 
 #include <limits>
-#include <span>
-#include <vector>
 
 #include <taut/impl/untangle/state.hpp>
 

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <memory>
-#include <numbers>
 #include <random>
 #include <span>
 #include <string>

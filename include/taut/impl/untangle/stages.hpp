@@ -5,7 +5,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/untangle/coarse_stage.hpp>

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <span>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/atlas/cutting/laid_part.hpp>
 #include <taut/impl/atlas/cutting/sew_tips.hpp>

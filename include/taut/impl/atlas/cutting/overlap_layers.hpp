@@ -9,7 +9,6 @@
 #include <iterator>
 #include <numeric>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/atlas/cutting/flat_surface.hpp>

@@ -6,9 +6,6 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <optional>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/atlas/cut_to_disk.hpp>

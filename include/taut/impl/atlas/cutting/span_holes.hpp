@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include <taut/impl/atlas/cutting/coarse_surface.hpp>
 #include <taut/impl/mesh/boundary.hpp>

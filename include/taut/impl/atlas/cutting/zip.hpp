@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include <taut/impl/atlas/cutting/patch_newton.hpp>

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <taut/impl/core/error.hpp>

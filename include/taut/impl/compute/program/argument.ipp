@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstring>
-#include <limits>
-#include <string>
-#include <string_view>
-
 #include <taut/impl/compute/program/argument.hpp>
 
 namespace taut::impl

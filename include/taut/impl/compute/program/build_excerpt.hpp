@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cctype>
-#include <cstddef>
-#include <iomanip>
 #include <set>
-#include <sstream>
 #include <string>
 
 namespace taut::impl

@@ -4,9 +4,7 @@
 #include <cctype>
 #include <cstddef>
 #include <iomanip>
-#include <set>
 #include <sstream>
-#include <string>
 
 #include <taut/impl/compute/program/build_excerpt.hpp>
 

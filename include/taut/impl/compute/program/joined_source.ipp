@@ -3,8 +3,6 @@
 
 #include <cstddef>
 #include <set>
-#include <string>
-#include <vector>
 
 #include <taut/impl/compute/program/joined_source.hpp>
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cctype>
-#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>

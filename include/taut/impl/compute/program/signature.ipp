@@ -4,9 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <taut/impl/compute/program/signature.hpp>
 

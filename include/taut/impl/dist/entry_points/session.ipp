@@ -3,8 +3,6 @@
 
 #include <taut/impl/dist/session.hpp>
 
-#include <memory>
-
 #include <taut/impl/dist/shape_body.hpp>
 
 namespace taut::dist

@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/constrain/boundary_slides.hpp>
 #include <taut/impl/dist/shape_body.hpp>

@@ -4,12 +4,7 @@
 #include <taut/impl/dist/volume_pieces.hpp>
 
 #include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/dist_io/open_volume.hpp>
 #include <taut/impl/dist_io/piece_shapes.hpp>

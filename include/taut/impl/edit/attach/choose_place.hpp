@@ -9,7 +9,6 @@
 #include <span>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/edit/attach/seam.hpp>
 #include <taut/impl/edit/paste_params.hpp>

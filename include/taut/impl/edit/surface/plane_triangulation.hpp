@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <span>
 #include <utility>
 #include <vector>
 

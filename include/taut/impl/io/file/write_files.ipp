@@ -4,11 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <deque>
-#include <filesystem>
-#include <functional>
-#include <span>
 #include <string>
-#include <taut/impl/io/atomic_file.hpp>
 #include <taut/impl/io/write_files.hpp>
 #include <vector>
 

@@ -2,14 +2,10 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
-#include <optional>
 #include <taut/impl/core/disjoint_sets.hpp>
 #include <taut/impl/io/cut_seams.hpp>
-#include <taut/impl/io/surface_file.hpp>
 #include <taut/impl/mesh/facets.hpp>
 #include <utility>
-#include <vector>
 
 namespace taut::io::impl
 {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <filesystem>
 #include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 

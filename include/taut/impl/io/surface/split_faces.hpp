@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <deque>
 #include <map>
-#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>

@@ -2,12 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
-#include <span>
 #include <string>
 #include <string_view>
-#include <taut/impl/io/atomic_file.hpp>
-#include <taut/impl/io/cut_seams.hpp>
 #include <taut/impl/io/surface/complete_texcoords.hpp>
 #include <taut/impl/io/surface/obj_output.hpp>
 #include <taut/impl/io/surface/obj_statements.hpp>

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/io/prob.hpp>
 #include <taut/impl/io/volume/builder.hpp>

@@ -2,15 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <iterator>
 #include <numbers>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <taut/impl/exact/cell_validity.hpp>
 #include <taut/impl/io/io_error.hpp>

@@ -8,14 +8,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <iterator>
-#include <span>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/core/single.hpp>

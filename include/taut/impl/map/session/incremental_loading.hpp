@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstddef>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 

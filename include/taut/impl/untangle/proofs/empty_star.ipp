@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
-
 #include <taut/impl/untangle/proofs/empty_star.hpp>
 
 namespace taut::impl

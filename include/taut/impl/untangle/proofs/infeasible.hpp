@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <taut/impl/exact/branch_points.hpp>
 #include <taut/impl/mesh/incidence.hpp>
 #include <taut/impl/untangle/proofs/empty_star.hpp>

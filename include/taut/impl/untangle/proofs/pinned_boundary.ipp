@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <vector>
-
 #include <taut/impl/untangle/proofs/pinned_boundary.hpp>
 
 namespace taut::impl

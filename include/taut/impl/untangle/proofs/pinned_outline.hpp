@@ -9,7 +9,6 @@
 #include <numbers>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include <taut/impl/exact/crossings.hpp>
 #include <taut/impl/exact/exact_sum.hpp>
