@@ -16,38 +16,72 @@
 namespace taut::dist::impl
 {
 
-/// Collective. MEDIT's files with an item a line, in double precision. Throws unsuited.
-inline line_layout medit_lines(const communicator& all, const std::filesystem::path& path)
+/// A section of cells of MEDIT's.
+struct medit_section
 {
-    struct known_section
+    std::string_view keyword;
+    io::cell_kind kind;
+    std::string_view group;
+    bool tagged;
+
+    /// The section of a keyword; none for what has no cells. Throws unsuited for cells that are not read by ranges.
+    static const medit_section* of(std::string_view keyword)
     {
-        std::string_view keyword;
-        io::cell_kind kind;
-        std::string_view group;
-        bool tagged;
-    };
-    static constexpr std::array<known_section, 9> known = {{
-        {"Edges", io::cell_kind::line, "edges", true},
-        {"Triangles", io::cell_kind::triangle, "triangles", true},
-        {"Quadrilaterals", io::cell_kind::quad, "quadrilaterals", true},
-        {"Tetrahedra", io::cell_kind::tetrahedron, "tetrahedra", true},
-        {"Corners", io::cell_kind::vertex, "corners", false},
-        {"RequiredVertices", io::cell_kind::vertex, "required_vertices", false},
-        {"Hexahedra", io::cell_kind::hexahedron, "hexahedra", true},
-        {"Prisms", io::cell_kind::wedge, "prisms", true},
-        {"Pyramids", io::cell_kind::pyramid, "pyramids", true},
-    }};
+        static constexpr std::array<medit_section, 9> known = {{
+            {"Edges", io::cell_kind::line, "edges", true},
+            {"Triangles", io::cell_kind::triangle, "triangles", true},
+            {"Quadrilaterals", io::cell_kind::quad, "quadrilaterals", true},
+            {"Tetrahedra", io::cell_kind::tetrahedron, "tetrahedra", true},
+            {"Corners", io::cell_kind::vertex, "corners", false},
+            {"RequiredVertices", io::cell_kind::vertex, "required_vertices", false},
+            {"Hexahedra", io::cell_kind::hexahedron, "hexahedra", true},
+            {"Prisms", io::cell_kind::wedge, "prisms", true},
+            {"Pyramids", io::cell_kind::pyramid, "pyramids", true},
+        }};
+        const auto same = [&](std::string_view other) { return io::impl::same_letters(keyword, other); };
+        if (keyword.size() > 2 && keyword.back() >= '2' && keyword.back() <= '9') throw unsuited("it has a high order");
+        if (same("Pentahedra") || same("Hexaedra")) throw unsuited("it has cells of a kind that is not read by ranges");
+        const auto* found = std::find_if(known.begin(), known.end(), [&](const auto& s) { return same(s.keyword); });
+        return found == known.end() ? nullptr : found;
+    }
+
+    /// The cells in a range of items.
+    line_section in(item_range items, group_names& groups) const
+    {
+        return {.what = line_section::content::cells,
+                .text = 0,
+                .items = items,
+                .cell = [s = *this, names = &groups](const tokens& w, line_cell& c)
+                {
+                    c.kind = s.kind;
+                    c.take(w, 0, wedge_order::turned);
+                    const auto n = static_cast<std::size_t>(io::impl::shape_of(s.kind).corners);
+                    c.groups.push_back(s.tagged ? names->tagged(std::string(s.group), w.integer(n), c.dimension())
+                                                : names->number({std::string(s.group), 0, false}));
+                }};
+    }
+};
+
+/// Collective. The lines of a file of MEDIT's: keywords are headings.
+inline std::unique_ptr<text_ranges> medit_text(const communicator& all, const std::filesystem::path& path)
+{
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-    line_layout layout;
-    layout.first_number = 1;
-    layout.texts.push_back(std::make_unique<text_ranges>(
+    return std::make_unique<text_ranges>(
         all, path, '#',
         [&](std::string_view line)
         {
             const tokens words(line, '#');
             return words.size() == 0 ? line_kind::nothing
                                      : (letter(words.word(0).front()) ? line_kind::heading : line_kind::item);
-        }));
+        });
+}
+
+/// Collective. MEDIT's files with an item a line, in double precision. Throws unsuited.
+inline line_layout medit_lines(const communicator& all, const std::filesystem::path& path)
+{
+    line_layout layout;
+    layout.first_number = 1;
+    layout.texts.push_back(medit_text(all, path));
     const text_ranges& text = *layout.texts[0];
     const auto same = [](std::string_view a, std::string_view b) { return io::impl::same_letters(a, b); };
     std::int64_t version = 0, dimension = 0, meshes = 0;
@@ -83,24 +117,8 @@ inline line_layout medit_lines(const communicator& all, const std::filesystem::p
                                        .group = [names = layout.groups.get()](const tokens& w)
                                        { return names->tagged("vertices", w.integer(3), 0); }});
         }
-        const auto* section =
-            std::find_if(known.begin(), known.end(), [&](const auto& s) { return same(s.keyword, keyword); });
-        if (keyword.size() > 2 && keyword.back() >= '2' && keyword.back() <= '9') throw unsuited("it has a high order");
-        if (same(keyword, "Pentahedra") || same(keyword, "Hexaedra"))
-            throw unsuited("it has cells of a kind that is not read by ranges");
-        if (section == known.end()) continue;
-        layout.sections.push_back({.what = line_section::content::cells,
-                                   .text = 0,
-                                   .items = items(),
-                                   .cell = [s = *section, names = layout.groups.get()](const tokens& w, line_cell& c)
-                                   {
-                                       c.kind = s.kind;
-                                       c.take(w, 0, wedge_order::turned);
-                                       const auto n = static_cast<std::size_t>(io::impl::shape_of(s.kind).corners);
-                                       c.groups.push_back(
-                                           s.tagged ? names->tagged(std::string(s.group), w.integer(n), c.dimension())
-                                                    : names->number({std::string(s.group), 0, false}));
-                                   }});
+        if (const auto* section = medit_section::of(keyword))
+            layout.sections.push_back(section->in(items(), *layout.groups));
     }
     if (version < 2 || dimension != 3 || meshes != 1)
         throw unsuited("it is not one mesh of three dimensions in double precision");

@@ -67,6 +67,38 @@ std::vector<vec3> sample(queue& q, const feature_map& map, std::span<const vec2>
     return result;
 }
 
+/// A map without values that has the places of a feature, and a margin around them.
+inline feature_map empty_map(std::span<const vec2> uv, const feature_map_params& params)
+{
+    vec2 low = uv[0], high = uv[0];
+    for (const vec2& p : uv)
+    {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    feature_map map;
+    const vec2 extent = high - low;
+    map.texel = std::max(extent.x, extent.y) / static_cast<double>(params.resolution - 2 * params.margin);
+    map.low = low - map.texel * params.margin;
+    map.width = static_cast<idx>(std::ceil(extent.x / map.texel)) + 2 * params.margin;
+    map.height = static_cast<idx>(std::ceil(extent.y / map.texel)) + 2 * params.margin;
+    return map;
+}
+
+/// Notes how far the samples at the vertices are from them.
+inline void measure_round_trip(feature_map& map, std::span<const vec3> sampled, std::span<const vec3> points,
+                               const feature& part)
+{
+    const mat3 to_frame = glm::transpose(part.frame());
+    for (std::size_t v = 0; v < sampled.size(); ++v)
+    {
+        const double d = glm::distance(sampled[v], to_frame * (points[v] - part.centre));
+        map.round_trip = std::max(map.round_trip, d);
+        map.round_trip_rms += d * d / static_cast<double>(sampled.size());
+    }
+    map.round_trip_rms = std::sqrt(map.round_trip_rms);
+}
+
 } // namespace taut::impl
 
 namespace taut
@@ -80,19 +112,7 @@ impl::feature_map make_feature_map(queue& q, const feature& part, std::span<cons
     if (uv.size() != surface.points().size())
         throw parameter_error("uv", std::to_string(uv.size()) + " places for " +
                                         std::to_string(surface.points().size()) + " vertices; give one per vertex");
-    vec2 low = uv[0], high = uv[0];
-    for (const vec2& p : uv)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    impl::feature_map map;
-    const vec2 extent = high - low;
-    map.texel = std::max(extent.x, extent.y) / static_cast<double>(params.resolution - 2 * params.margin);
-    map.low = low - map.texel * params.margin;
-    map.width = static_cast<idx>(std::ceil(extent.x / map.texel)) + 2 * params.margin;
-    map.height = static_cast<idx>(std::ceil(extent.y / map.texel)) + 2 * params.margin;
-
+    impl::feature_map map = impl::empty_map(uv, params);
     const mat3 to_frame = glm::transpose(part.frame());
     std::vector<vec2> corners;
     std::vector<float> positions;
@@ -140,14 +160,7 @@ impl::feature_map make_feature_map(queue& q, const feature& part, std::span<cons
     }
     map.values = texels.download();
 
-    const auto sampled = impl::sample(q, map, uv);
-    for (std::size_t v = 0; v < sampled.size(); ++v)
-    {
-        const double d = glm::distance(sampled[v], to_frame * (surface.points()[v] - part.centre));
-        map.round_trip = std::max(map.round_trip, d);
-        map.round_trip_rms += d * d / static_cast<double>(sampled.size());
-    }
-    map.round_trip_rms = std::sqrt(map.round_trip_rms);
+    impl::measure_round_trip(map, impl::sample(q, map, uv), surface.points(), part);
     return map;
 }
 

@@ -77,6 +77,109 @@ struct smooth_result
     explicit operator bool() const { return report.outcome == outcome::valid; }
 };
 
+} // namespace taut
+
+namespace taut::impl
+{
+
+/// Points times 2^by, exactly.
+template <class Point>
+std::vector<Point> times_power(std::vector<Point> points, int by)
+{
+    for (Point& p : points)
+        for (int k = 0; k < Point::length(); ++k) p[k] = std::ldexp(p[k], by);
+    return points;
+}
+
+/// Exponent of 2 of the largest coordinate: shapes have no size, so a mesh of any size is one of about 1.
+inline int size_exponent(std::span<const vec3> points)
+{
+    double most = 0;
+    for (const vec3& p : points)
+        for (int k = 0; k < 3; ++k) most = std::max(most, std::abs(p[k]));
+    return most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
+}
+
+/// An observer of the mesh divided by 2^exponent that tells coordinates of the mesh itself. ask is referred to.
+template <class Element>
+observer in_own_size(const observer& ask, int exponent)
+{
+    if (!ask) return {};
+    return [&ask, exponent](progress p)
+    {
+        const auto restore = [&](auto& seen)
+        {
+            if (seen) seen = [inner = seen, exponent] { return times_power(inner(), exponent); };
+        };
+        if constexpr (Element::dimension == 2)
+            restore(p.coordinates);
+        else
+            restore(p.positions);
+        return ask(p);
+    };
+}
+
+/// The deformation that smooths a mesh, given divided by 2^exponent, but for what moves how.
+template <class Element>
+deform_params<Element> smoothing(const smooth_params<Element>& params, int exponent)
+{
+    deform_params<Element> how;
+    how.energy = energy::shape_power{params.worst_exponent};
+    how.weights = energy::weighting::uniform;
+    how.shapes = params.shapes;
+    how.rest = times_power(params.rest, -exponent);
+    how.targets = params.targets;
+    if (params.shapes == target_shapes::rest)
+        for (auto& edges : how.targets)
+            for (int k = 0; k < Element::dimension; ++k)
+                for (int r = 0; r < Element::dimension; ++r) edges[k][r] = std::ldexp(edges[k][r], -exponent);
+    how.owners = params.owners;
+    how.precision = params.precision;
+    how.untangling = params.untangling;
+    how.solve = params.solve;
+    how.limits = {params.limits.time_limit, in_own_size<Element>(params.limits.observer, exponent)};
+    return how;
+}
+
+/// Flags of the vertices that smoothing fixes. Throws constraint_error.
+template <class Element>
+std::vector<char> still_vertices(const mesh<Element>& m, const smooth_params<Element>& params)
+{
+    std::vector<char> still(m.points().size(), 0);
+    for (const idx v : params.fixed)
+        if (v >= 0 && v < m.vertex_count())
+            still[static_cast<std::size_t>(v)] = 1;
+        else
+            throw constraint_error(constraint_error::out_of_range, {v},
+                                   "fixed vertex " + std::to_string(v) + " of a mesh that has " +
+                                       std::to_string(m.vertex_count()) + ", counted from 0");
+    if (params.boundary == smooth_boundary::fixed)
+        for (const auto& facet : boundary_facets(m, params.owners))
+            for (const idx v : facet) still[static_cast<std::size_t>(v)] = 1;
+    return still;
+}
+
+/// Pins and slides of a mesh that is smoothed.
+template <class Element>
+void constrain_smoothing(deform_params<Element>& how, const mesh<Element>& m, const smooth_params<Element>& params)
+{
+    kept_directions<Element> directions(m, params.flat);
+    if (params.boundary == smooth_boundary::sliding) directions.add(boundary_facets(m, params.owners));
+    directions.add(params.kept);
+    auto motion = directions.motion();
+    const auto still = still_vertices(m, params);
+    for (std::size_t v = 0; v < still.size(); ++v)
+        if (still[v]) motion.pins.repin(static_cast<idx>(v), vec<Element::dimension>(m.points()[v]));
+    std::erase_if(motion.slides, [&](const auto& s) { return still[static_cast<std::size_t>(s.vertex)] != 0; });
+    how.constraints = std::move(motion.pins);
+    how.slides = std::move(motion.slides);
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
 /// Moves the vertices of a volume, or a mesh of the plane (z = 0), to improve the shapes of its elements, without
 /// inverting one; inverted elements are untangled first. Connectivity is kept.
 /// Throws mesh_error, parameter_error, constraint_error for wrong ids, device_error.
@@ -87,72 +190,10 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
     if (!params.owners.empty() && params.targets.size() != given.cells().size())
         throw parameter_error("targets", "one matrix a cell where there are owners");
     using point = vec<Element::dimension>;
-    // Shapes have no size, so a mesh of any size is one of about 1, by a power of two.
-    double most = 0;
-    for (const vec3& p : given.points())
-        for (int k = 0; k < 3; ++k) most = std::max(most, std::abs(p[k]));
-    const int exponent = most > 0 && std::isfinite(most) ? std::ilogb(most) : 0;
-    const auto scaled = [](std::vector<vec3> points, int by)
-    {
-        for (vec3& p : points)
-            for (int k = 0; k < 3; ++k) p[k] = std::ldexp(p[k], by);
-        return points;
-    };
-    const mesh<Element> m(scaled(given.points(), -exponent), given.cells());
-    const auto restored = [exponent](std::vector<point> x)
-    {
-        for (point& p : x)
-            for (int k = 0; k < Element::dimension; ++k) p[k] = std::ldexp(p[k], exponent);
-        return x;
-    };
-    deform_params<Element> how;
-    how.energy = energy::shape_power{params.worst_exponent};
-    how.weights = energy::weighting::uniform;
-    how.shapes = params.shapes;
-    how.rest = scaled(params.rest, -exponent);
-    how.targets = params.targets;
-    if (params.shapes == target_shapes::rest)
-        for (auto& edges : how.targets)
-            for (int k = 0; k < Element::dimension; ++k)
-                for (int r = 0; r < Element::dimension; ++r) edges[k][r] = std::ldexp(edges[k][r], -exponent);
-    how.owners = params.owners;
-    how.precision = params.precision;
-    how.untangling = params.untangling;
-    how.solve = params.solve;
-    how.limits.time_limit = params.limits.time_limit;
-    if (params.limits.observer)
-        how.limits.observer = [&ask = params.limits.observer, restored](progress p)
-        {
-            const auto restore = [&](auto& seen)
-            {
-                if (seen) seen = [inner = seen, restored] { return restored(inner()); };
-            };
-            if constexpr (Element::dimension == 2)
-                restore(p.coordinates);
-            else
-                restore(p.positions);
-            return ask(p);
-        };
-    impl::kept_directions<Element> directions(m, params.flat);
-    if (params.boundary == smooth_boundary::sliding) directions.add(impl::boundary_facets(m, params.owners));
-    directions.add(params.kept);
-    auto motion = directions.motion();
-    std::vector<char> still(m.points().size(), 0);
-    for (const idx v : params.fixed)
-        if (v >= 0 && v < m.vertex_count())
-            still[static_cast<std::size_t>(v)] = 1;
-        else
-            throw constraint_error(constraint_error::out_of_range, {v},
-                                   "fixed vertex " + std::to_string(v) + " of a mesh that has " +
-                                       std::to_string(m.vertex_count()) + ", counted from 0");
-    if (params.boundary == smooth_boundary::fixed)
-        for (const auto& facet : impl::boundary_facets(m, params.owners))
-            for (const idx v : facet) still[static_cast<std::size_t>(v)] = 1;
-    for (std::size_t v = 0; v < still.size(); ++v)
-        if (still[v]) motion.pins.repin(static_cast<idx>(v), point(m.points()[v]));
-    std::erase_if(motion.slides, [&](const auto& s) { return still[static_cast<std::size_t>(s.vertex)] != 0; });
-    how.constraints = std::move(motion.pins);
-    how.slides = std::move(motion.slides);
+    const int exponent = impl::size_exponent(given.points());
+    const mesh<Element> m(impl::times_power(given.points(), -exponent), given.cells());
+    auto how = impl::smoothing(params, exponent);
+    impl::constrain_smoothing(how, m, params);
 
     const std::vector<point> start(m.points().begin(), m.points().end());
     smooth_result<Element> result;
@@ -184,7 +225,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
         if (!report.converged && !report.stopped)
             report.notes.push_back("steps ended before convergence; the result is the best by then");
     }
-    result.x = restored(std::move(found.x));
+    result.x = impl::times_power(std::move(found.x), exponent);
     result.report = std::move(found.report);
     result.report.distance = std::ldexp(result.report.distance, exponent);
     return result;

@@ -51,6 +51,17 @@ private:
     /// Eliminates supervariable p; returns how many variables went, lowers `lowest` to the least new degree.
     std::size_t eliminate(std::size_t p, std::size_t left, std::size_t& lowest);
 
+    /// The border of a front: what p's own edges and the elements around it reach. Those elements are swallowed.
+    /// Returns the number of its variables.
+    std::size_t reach_border(std::size_t p, elimination_front& front);
+
+    /// outside_[e]: variables of element e that are not in the border, for every element that meets it.
+    void count_outside();
+
+    /// Leaves of the neighbours of a variable of the border those beyond it. Returns how many variables these are, and
+    /// a hash of the neighbourhood.
+    std::pair<std::size_t, std::uint64_t> prune(std::size_t i, std::size_t p, elimination_front& front);
+
     void swallow(elimination_front& front, idx e);
 
     /// Puts the members of one supervariable behind those of another.

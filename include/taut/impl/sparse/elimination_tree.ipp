@@ -58,11 +58,8 @@ void elimination_tree::dequeue(std::size_t i)
     (previous_[i] >= 0 ? next_[u(previous_[i])] : head_[degree_[i]]) = next_[i];
 }
 
-std::size_t elimination_tree::eliminate(std::size_t p, std::size_t left, std::size_t& lowest)
+std::size_t elimination_tree::reach_border(std::size_t p, elimination_front& front)
 {
-    // The border: what p's own edges and the elements around it reach. Those elements are swallowed.
-    elimination_front front;
-    const auto self = static_cast<idx>(p);
     const idx stamp = ++stamp_;
     mark_[p] = stamp;
     border_.clear();
@@ -87,53 +84,70 @@ std::size_t elimination_tree::eliminate(std::size_t p, std::size_t left, std::si
         dequeue(u(i));
         border_size += size_[u(i)];
     }
+    return border_size;
+}
 
-    // outside_[e]: variables of element e that are not in the border, for every element that meets it.
+void elimination_tree::count_outside()
+{
     for (const idx i : border_)
         for (const idx e : elements(u(i)))
         {
             if (front_of_[u(e)] < 0) continue;
-            if (outside_stamp_[u(e)] != stamp)
+            if (outside_stamp_[u(e)] != stamp_)
             {
-                outside_stamp_[u(e)] = stamp;
+                outside_stamp_[u(e)] = stamp_;
                 outside_[u(e)] = degree_[u(e)];
             }
             outside_[u(e)] -= size_[u(i)];
         }
+}
+
+std::pair<std::size_t, std::uint64_t> elimination_tree::prune(std::size_t i, std::size_t p, elimination_front& front)
+{
+    std::size_t outer = 0;
+    std::uint64_t hash = static_cast<std::uint64_t>(p);
+    const auto around = elements(i);
+    idx kept = 0;
+    for (const idx e : around)
+    {
+        if (front_of_[u(e)] < 0) continue;
+        if (outside_[u(e)] == 0)
+        {
+            swallow(front, e); // it lies within the new element
+            continue;
+        }
+        outer += outside_[u(e)];
+        hash += static_cast<std::uint64_t>(e);
+        around[u(kept++)] = e;
+    }
+    elements_[i] = kept;
+    const auto near = variables(i);
+    std::size_t first = near.size(); // of what is kept
+    for (std::size_t k = near.size(); k-- > 0;)
+    {
+        const idx j = near[k];
+        if (size_[u(j)] == 0 || mark_[u(j)] == stamp_) continue;
+        outer += size_[u(j)];
+        hash += static_cast<std::uint64_t>(j);
+        near[--first] = j;
+    }
+    variables_[i] = static_cast<idx>(near.size() - first);
+    return {outer, hash};
+}
+
+std::size_t elimination_tree::eliminate(std::size_t p, std::size_t left, std::size_t& lowest)
+{
+    elimination_front front;
+    const auto self = static_cast<idx>(p);
+    std::size_t border_size = reach_border(p, front);
+    count_outside();
 
     std::size_t gone = size_[p];
     size_[p] = 0;
     hashes_.clear();
     for (const idx i : border_)
     {
-        std::size_t outer = 0;
-        std::uint64_t hash = static_cast<std::uint64_t>(p);
-        const auto around = elements(u(i));
-        idx kept = 0;
-        for (const idx e : around)
-        {
-            if (front_of_[u(e)] < 0) continue;
-            if (outside_[u(e)] == 0)
-            {
-                swallow(front, e); // it lies within the new element
-                continue;
-            }
-            outer += outside_[u(e)];
-            hash += static_cast<std::uint64_t>(e);
-            around[u(kept++)] = e;
-        }
-        elements_[u(i)] = kept;
-        const auto near = variables(u(i));
-        std::size_t first = near.size(); // of what is kept
-        for (std::size_t k = near.size(); k-- > 0;)
-        {
-            const idx j = near[k];
-            if (size_[u(j)] == 0 || mark_[u(j)] == stamp) continue;
-            outer += size_[u(j)];
-            hash += static_cast<std::uint64_t>(j);
-            near[--first] = j;
-        }
-        variables_[u(i)] = static_cast<idx>(near.size() - first);
+        const auto [outer, hash] = prune(u(i), p, front);
         if (outer == 0) // nothing beyond this front: goes with it
         {
             gone += size_[u(i)];
