@@ -2,10 +2,11 @@
 """partitioned.py CASE TAUT_MPI TAUT MPIEXEC FOLDER: taut-mpi on meshes in pieces, of other cells, and of the plane."""
 import filecmp
 import os
+import shutil
 
 import program
 from piece_files import foam, foam_case, foam_zones, mixed_bar, points_of_foam, points_of_vtu, pvtu, vtu
-from program import bar, fails, near, run, serial, stats, stats_of_check, stretched
+from program import bar, fails, killed_at, near, run, serial, stats, stats_of_check, stretched
 
 
 def pins_of(points):
@@ -116,7 +117,6 @@ def case_foam():
             assert file == "points" or filecmp.cmp(here, there, shallow=False), file
     foam_zones("many/processor3/constant/polyMesh", "cell", {"far": [10**6]}, True)
     fails("deform", "many", "--fix", "floor", "-o", "x", code=3, word="a zone names item 1000000")
-    fails("deform", "bytes", "--pins", "pins.csv", "-o", "x", "--checkpoint", "so-far", code=2, word="--checkpoint")
     # One that is not decomposed; one without numbers of points, which are joined where they are.
     foam("one/constant/polyMesh", b.points, b.cells, lambda around: patch([b.points[v] for v in around]))
     run("deform", "one", "--pins", "pins.csv", "-o", "one-moved", "--stats", "s.json", processes=3)
@@ -140,6 +140,44 @@ def case_foam():
     with open(path, "w") as f:
         f.write(text[:cut] + "5(0 1 2 3 4" + text[text.index(")", cut):])
     fails("deform", "text", "-o", "x", code=3, word="split polyhedra")
+
+
+def case_foam_checkpoint():
+    """A run of a case that is killed goes on from its checkpoint, which is a folder, with other processes."""
+    b = bar(8)
+    foam_case("case", b.points, b.cells, 3, lambda corners: "floor" if all(p[2] == 0 for p in corners) else "walls")
+    b.pins("pins.csv", lambda p: (p[0], p[1], 0.4 * p[2]))  # it buckles, which takes many steps
+    task = ("deform", "case", "--pins", "pins.csv", "-o", "out", "--checkpoint", "so-far/", "--checkpoint-interval", "1",
+            "--stats", "s.json")
+    assert killed_at(task, "so-far") and sorted(os.listdir(".")) == ["case", "pins.csv", "so-far"], os.listdir(".")
+    left = stats_of_check("so-far")
+    assert left["valid"] and left["elements"] == len(b.cells), left
+    # Where there is no time for more, the result is the checkpoint, bit for bit, and that stays.
+    run(*task, "--time-limit", "0.01", code=8, processes=3)
+    for k in range(3):
+        left, done, given = (points_of_foam(f"{c}/processor{k}/constant/polyMesh") for c in ("so-far", "out", "case"))
+        assert left == done != given
+    shutil.rmtree("out")
+    run(*task, processes=3)
+    again = stats("s.json")
+    assert again["converged"] and again["inverted"] == 0 and again["pins_held"], again
+    assert sorted(os.listdir(".")) == ["case", "out", "pins.csv", "s.json"], os.listdir(".")
+    # Of what is at its end, nothing is left to do.
+    os.rename("out", "so-far")
+    run(*task)
+    assert stats("s.json")["iterations"] <= 1 and not os.path.exists("so-far"), stats("s.json")["iterations"]
+    shutil.rmtree("out")
+    # It replaces nothing that is no checkpoint.
+    for name, word in (("case/", "is also the input"), ("out/", "is also the input or the output"),
+                       ("s.json", "is a file")):
+        fails(*task[:6], "--checkpoint", name, code=2, word=word)
+    os.makedirs("other/constant/polyMesh")
+    os.makedirs("other/system")
+    fails(*task[:6], "--checkpoint", "other", code=2, word="has more in it")
+    b.medit("bar.mesh")
+    fails("deform", "bar.mesh", "-o", "x.mesh", "--checkpoint", "case", code=2, word="is a folder")
+    foam_case("so-far", b.points[:81 * 2], [c for c in b.cells if max(c) < 81 * 2], 1, lambda corners: "walls")
+    fails(*task, code=4, word="checkpoint of another mesh")
 
 
 def case_mixed():

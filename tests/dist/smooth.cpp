@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <dist/pieces.hpp>
 #include <taut/certify.hpp>
+#include <taut/impl/io/cell_faces.hpp>
 #include <taut/smooth.hpp>
 
 namespace taut::test
@@ -67,6 +69,73 @@ TEST_CASE("dist smooth: a fixed boundary stays bit for bit; a fault of one proce
             if (p.points[v][k] == 0 || p.points[v][k] == 1) CHECK(x[v] == p.points[v]);
     if (rank_of() == size_of() - 1) how.fixed = {777777};
     CHECK_THROWS_AS(dist::smooth<tetrahedron>(MPI_COMM_WORLD, p, how), error);
+}
+
+TEST_CASE("dist smooth: interfaces between regions, and lines where labelled faces meet, as one process keeps them")
+{
+    constexpr int n = 2, slice = (n + 1) * (n + 1);
+    const auto shaken = bar(n, 4);
+    auto points = shaken.points();
+    for (std::size_t v = 0; v < points.size(); ++v)
+    {
+        if (v / slice == 2 * n) points[v].z = 2;                  // the plane in the middle
+        if (v < slice && v % (n + 1) == n / 2) points[v].x = 0.5; // a line on one end
+    }
+    const mesh<tetrahedron> m(points, shaken.cells());
+    io::volume_file file;
+    file.points = points;
+    file.cells = {{io::cell_kind::tetrahedron, {}}, {io::cell_kind::triangle, {}}};
+    file.labels = {{"region", true, {}}};
+    std::vector<dist::impl::labelled_face> faces;
+    for (const auto& c : m.cells())
+    {
+        file.cells[0].corners.insert(file.cells[0].corners.end(), c.begin(), c.end());
+        file.labels[0].values.push_back(1 + (*std::max_element(c.begin(), c.end()) >= slice * (2 * n + 1)));
+    }
+    for (const auto& c : m.cells())
+    {
+        dist::impl::labelled_face face;
+        std::size_t k = 0;
+        double x = 0;
+        for (const idx v : c)
+            if (v < slice && k < 3) face.vertices[k++] = v, x += points[static_cast<std::size_t>(v)].x;
+        if (k < 3) continue;
+        face.label = x < 1.5 ? 3 : 4;
+        faces.push_back(face);
+        for (k = 0; k < 3; ++k) file.cells[1].corners.push_back(static_cast<idx>(face.vertices[k]));
+        file.labels[0].values.push_back(face.label);
+    }
+    REQUIRE(faces.size() == 2 * n * n);
+    queue q;
+    const auto one = smooth(q, m,
+                            smooth_params<tetrahedron>{.kept = io::impl::kept_facets(file, true),
+                                                       .precision = precision::fp64,
+                                                       .solve = {.stopping = {.gradient_tolerance = 1e-8}}});
+    for (int processes = 1; processes <= size_of(); ++processes)
+    {
+        const first_processes some(processes);
+        if (!some) continue;
+        const auto p = dealt(some.get(), m);
+        dist::smooth_params how;
+        how.solve.stopping.gradient_tolerance = 1e-8;
+        for (const auto& c : p.cells)
+            how.regions.push_back(1 + (*std::max_element(c.begin(), c.end()) >= slice * (2 * n + 1)));
+        if (rank_of(some.get()) == processes - 1) how.faces = faces;
+        const auto [x, report] = dist::smooth<tetrahedron>(some.get(), p, how);
+        CHECK(report.converged);
+        CHECK(report.energy == doctest::Approx(one.report.energy).epsilon(1e-10));
+        bool moved = false;
+        for (std::size_t v = 0; v < x.size(); ++v)
+        {
+            if (p.ids[v] / slice == 2 * n) CHECK(x[v].z == 2);
+            if (p.ids[v] < slice && p.ids[v] % (n + 1) == n / 2) CHECK(x[v].x == 0.5);
+            moved = moved || (p.ids[v] / slice == 2 * n && x[v] != p.points[v]);
+            CHECK(glm::distance(x[v], one.x[static_cast<std::size_t>(p.ids[v])]) < 1e-6);
+        }
+        CHECK(dist::impl::communicator(some.get()).any(moved)); // they slide
+        how.regions.resize(1);
+        CHECK_THROWS_AS(dist::smooth<tetrahedron>(some.get(), p, how), error);
+    }
 }
 
 TEST_CASE("dist check: inverted elements by their numbers, as one process counts them")

@@ -11,7 +11,10 @@
 #include <taut/dist.hpp>
 #include <taut/impl/dist_io/pvtu_volume.hpp>
 
+#include "mpi/case_folder.hpp"
 #include "mpi/shape_source.hpp"
+#include "shared/failure.hpp"
+#include "shared/writing.hpp"
 
 namespace taut::tools::mpi
 {
@@ -35,7 +38,13 @@ public:
     {
         std::error_code unknown;
         const std::string& path = options_.checkpoint;
-        if (path.empty() || !all_.shared(static_cast<int>(std::filesystem::exists(path, unknown)))) return {};
+        if (path.empty()) return {};
+        all_.together(
+            [&]
+            {
+                if (all_.rank() == 0) require_kind();
+            });
+        if (!all_.shared(static_cast<int>(std::filesystem::exists(path, unknown)))) return {};
         return source_.read(path);
     }
 
@@ -73,7 +82,7 @@ public:
             found.report.products += std::exchange(products, products + found.report.products);
             const bool by_interval = !all_.any(last || refused);
             if (!by_interval || !found.report.stopped || !found.report.flips) return found;
-            source_.write(options_.checkpoint, found.x);
+            write(found.x);
         }
     }
 
@@ -83,6 +92,11 @@ public:
         if (all_.rank() != 0 || options_.checkpoint.empty()) return;
         std::error_code unknown;
         const std::filesystem::path path = options_.checkpoint;
+        if (is_case())
+        {
+            for (const auto& folder : {path, unfinished()}) std::filesystem::remove_all(folder, unknown);
+            return;
+        }
         std::vector<std::filesystem::path> files;
         if (path.extension() == ".pvtu") files = dist::impl::pieces_of(path);
         files.push_back(path);
@@ -91,6 +105,51 @@ public:
     }
 
 private:
+    /// Whether it is a folder, as the input.
+    bool is_case() const
+    {
+        std::error_code unknown;
+        return std::filesystem::is_directory(options_.shape.input, unknown);
+    }
+
+    /// Throws usage_error where one is a folder and the other is not.
+    void require_kind() const
+    {
+        std::error_code unknown;
+        const std::string& path = options_.checkpoint;
+        if (std::filesystem::exists(path, unknown) && std::filesystem::is_directory(path, unknown) != is_case())
+            throw usage_error(
+                "--checkpoint " + path +
+                (is_case() ? ": is a file, and the mesh is a folder; name another" : ": is a folder; name a file"));
+    }
+
+    void write(const points& x) const
+    {
+        if (!is_case()) return source_.write(options_.checkpoint, x);
+        const auto made = unfinished(); // all pieces of a folder are of one time
+        const auto by_first = [&](const auto& body)
+        {
+            all_.together(
+                [&]
+                {
+                    if (all_.rank() == 0) writing(body);
+                });
+        };
+        by_first([&] { remove_folder(made); }); // of a run that was killed
+        source_.write(made.string(), x);
+        by_first([&] { replace_folder(made, named()); });
+    }
+
+    std::filesystem::path named() const
+    {
+        const std::filesystem::path path = options_.checkpoint;
+        return path.has_filename() ? path : path.parent_path();
+    }
+    std::filesystem::path unfinished() const
+    {
+        return named().parent_path() / ('.' + named().filename().string() + ".taut-checkpoint");
+    }
+
     const dist::impl::communicator& all_;
     const mpi_options& options_;
     const shape_source<Element>& source_;

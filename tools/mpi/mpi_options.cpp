@@ -28,9 +28,9 @@ void declare_solver(CLI::App& app, mpi_options& o)
 
 void declare_checkpoint(CLI::App& app, mpi_options& o)
 {
-    add_output(app, "--checkpoint", o.checkpoint, {.may_fail = false},
-               "Write the shape so far to this mesh from time to time; where it is there already, begin with it. "
-               "Removed once the result is written")
+    add_output(app, "--checkpoint", o.checkpoint, {.may_fail = false, .may_be_folder = true},
+               "Write the shape so far to this mesh, a folder for a case of OpenFOAM, from time to time; where it is "
+               "there already, begin with it. Removed once the result is written")
         ->type_name("FILE");
     app.add_option("--checkpoint-interval", o.checkpoint_interval, "Seconds between two of these")
         ->type_name("S")

@@ -10,6 +10,7 @@
 #include <taut/impl/dist_io/piece_shapes.hpp>
 #include <taut/impl/exact/predicates.hpp>
 
+#include "mpi/case_folder.hpp"
 #include "mpi/ranged_targets.hpp"
 #include "mpi/shape_source.hpp"
 #include "shared/failure.hpp"
@@ -38,6 +39,18 @@ io::volume_file head_of(const ranged_volume& volume, const std::string& path)
     return file;
 }
 
+/// A checkpoint of a case of OpenFOAM is a folder of its own, or will be one.
+void require_case(const mpi_options& o)
+{
+    const std::string& path = o.checkpoint;
+    const auto refuse = [&](const std::string& why) { throw usage_error("--checkpoint " + path + ": " + why); };
+    for (const auto* other : {&o.shape.input, &o.shape.output})
+        if (same_folder(path, *other)) refuse("is also the input or the output; name another folder");
+    std::error_code unknown;
+    if (std::filesystem::is_directory(path, unknown) && !holds_meshes_alone(path))
+        refuse("is there already and has more in it than meshes of OpenFOAM; name another folder");
+}
+
 void require_place(const ranged_volume& volume, const mpi_options& o)
 {
     const auto& shape = o.shape;
@@ -50,7 +63,7 @@ void require_place(const ranged_volume& volume, const mpi_options& o)
     }
     if (volume.format == "OpenFOAM")
     {
-        if (!o.checkpoint.empty()) throw usage_error("--checkpoint: a case of OpenFOAM has none; leave it out");
+        if (!o.checkpoint.empty()) require_case(o);
         return;
     }
     for (const auto* name : {&shape.output, &o.checkpoint})

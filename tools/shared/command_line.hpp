@@ -31,6 +31,7 @@ struct file_use
     std::string otherwise = {};               ///< the file where the option is left out
     bool in_place = false;                    ///< it may replace that file
     bool may_fail = false;                    ///< name_of_invalid() is written where there is no valid map
+    bool may_be_folder = false;               ///< a mesh in pieces: the command judges the folder
 
     /// The file in what is given, or nothing; none: what is given is the file.
     std::function<std::string(const std::string&)> file_in = {};

@@ -94,13 +94,19 @@ std::string name_of(const CLI::Option& option)
 bool require_place(const run_file& output)
 {
     std::error_code ignored;
-    if (fs::is_directory(output.path, ignored)) refuse(output, "is a folder; name a file");
-    const auto folder = output.path.has_parent_path() ? output.path.parent_path() : fs::path(".");
-    if (!fs::is_directory(folder, ignored) && io::impl::open_file_number(output.path) < 0)
+    if (fs::is_directory(output.path, ignored))
+    {
+        if (output.use->may_be_folder) return false;
+        refuse(output, "is a folder; name a file");
+    }
+    const bool slash = output.use->may_be_folder && !output.path.has_filename(); // as "folder/"
+    const auto path = slash ? output.path.parent_path() : output.path;
+    const auto folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    if (!fs::is_directory(folder, ignored) && io::impl::open_file_number(path) < 0)
         refuse(output, "there is no folder " + folder.string() + "; create it first");
     try
     {
-        const auto target = io::impl::resolve_target(output.path);
+        const auto target = io::impl::resolve_target(path);
         const auto& known = output.use->extensions;
         const bool named = output.path == output.given && !known.empty() && !target.stream;
         if (named && std::find(known.begin(), known.end(), extension(output.path)) == known.end())
@@ -109,7 +115,7 @@ bool require_place(const run_file& output)
             for (const auto& e : known) list += (list.empty() ? "" : " or ") + e;
             refuse(output, "the name must end in " + list);
         }
-        io::impl::require_writable(output.path);
+        io::impl::require_writable(path);
         return target.number == 1;
     }
     catch (const io::io_error& e)

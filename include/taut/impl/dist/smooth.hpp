@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -10,11 +11,23 @@
 #include <taut/impl/constrain/smooth_boundary.hpp>
 #include <taut/impl/dist/session.hpp>
 
+namespace taut::dist::impl
+{
+
+/// A face (in the plane an edge) with a label.
+struct labelled_face
+{
+    std::array<std::int64_t, 4> vertices{-1, -1, -1, -1}; ///< ids of its corners, around; -1 behind the last
+    std::int64_t label = 0;                               ///< 0: none
+};
+
+} // namespace taut::dist::impl
+
 namespace taut::dist
 {
 
 /// Parameters of smooth() over many processes, those of taut::smooth_params that are supported. All processes give the
-/// same but for `fixed`, `initial`, `queue` and `limits`.
+/// same but for `fixed`, `regions`, `faces`, `initial`, `queue` and `limits`.
 struct smooth_params
 {
     /// Treatment of the boundary.
@@ -26,6 +39,14 @@ struct smooth_params
 
     /// Ids of vertices that are fixed, of all processes together.
     std::vector<std::int64_t> fixed = {};
+
+    /// Regions of the cells of the piece, as materials, by any numbers: interfaces between them keep their shape, as
+    /// smooth_params::kept of one process: flat pieces slide in their planes, lines where pieces meet or end along
+    /// themselves, what is curved stays. Empty: all are of region 0.
+    std::vector<std::int64_t> regions = {};
+
+    /// Faces inside and on the boundary, of all processes together, which keep their shape by label alike.
+    std::vector<impl::labelled_face> faces = {};
 
     /// Positions to begin with, if they are not those of the mesh: one per vertex of the piece. No element is inverted.
     std::vector<vec3> initial = {};

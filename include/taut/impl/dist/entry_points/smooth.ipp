@@ -11,6 +11,7 @@
 #include <utility>
 
 #include <taut/impl/constrain/boundary_slides.hpp>
+#include <taut/impl/dist/kept_interfaces.hpp>
 #include <taut/impl/dist/shape_body.hpp>
 #include <taut/impl/energy/shape_power.hpp>
 #include <taut/impl/mesh/cell_corners.hpp>
@@ -26,29 +27,24 @@ struct kept_boundary
     std::vector<mat<Element::dimension>> slides; ///< one a vertex of the part
 };
 
-/// Facets of owned vertices have all their elements in the part; others may look like the boundary.
+/// Facets of owned vertices have all their elements in the part; others may look like the boundary. surfaces: what
+/// keeps its shape besides.
 template <class Element>
-kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& params)
+kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& params,
+                                   const std::vector<taut::impl::kept_facet>& surfaces)
 {
     constexpr int D = Element::dimension;
     kept_boundary<Element> kept;
     kept.slides.assign(p.size(), mat<D>(1.0));
-    if (p.corners.empty() || params.boundary == smooth_boundary::free) return kept;
+    if (p.corners.empty() || (params.boundary == smooth_boundary::free && surfaces.empty())) return kept;
     const mesh<Element> m(p.points, p.corners);
     auto facets = taut::impl::boundary_facets(m, std::span<const idx>(p.owners));
     std::erase_if(facets,
                   [&](const auto& f) { return std::none_of(f.begin(), f.end(), [&](idx v) { return p.owns(v); }); });
-    if (params.boundary == smooth_boundary::fixed)
-    {
-        std::vector<char> seen(p.size(), 0);
-        for (const auto& f : facets)
-            for (const idx v : f)
-                if (const auto at = static_cast<std::size_t>(v); p.owns(v) && seen[at]++ == 0)
-                    kept.pins.pin(p.ids[at], vec<D>(p.points[at]));
-        return kept;
-    }
     taut::impl::kept_directions<Element> directions(m, params.flat);
-    directions.add(std::span<const std::array<idx, static_cast<std::size_t>(D)>>(facets));
+    if (params.boundary == smooth_boundary::sliding)
+        directions.add(std::span<const std::array<idx, static_cast<std::size_t>(D)>>(facets));
+    directions.add(surfaces);
     const auto motion = directions.motion();
     for (const auto& [v, pin] : motion.pins.pins())
         for (int k = 0; k < D; ++k)
@@ -56,6 +52,15 @@ kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& 
                 kept.pins.pin(p.ids[static_cast<std::size_t>(v)], k, pin.value[k]);
     for (const auto& s : motion.slides)
         if (p.owns(s.vertex)) kept.slides[static_cast<std::size_t>(s.vertex)] = s.projection;
+    if (params.boundary != smooth_boundary::fixed) return kept;
+    std::vector<char> seen(p.size(), 0);
+    for (const auto& f : facets)
+        for (const idx v : f)
+            if (const auto at = static_cast<std::size_t>(v); p.owns(v) && seen[at]++ == 0)
+            {
+                kept.pins.pin(p.ids[at], vec<D>(p.points[at]));
+                kept.slides[at] = mat<D>(1.0);
+            }
     return kept;
 }
 
@@ -136,7 +141,8 @@ session<Element> smoothing_session(MPI_Comm comm, const mesh_piece<Element>& pie
     session<Element> s(comm, piece.weights.empty() ? piece : unweighted, how);
     const auto& p = s.body().mesh_part();
     kept_boundary<Element> kept;
-    all.together([&] { kept = boundary_of(p, params); });
+    const auto surfaces = kept_interfaces(p, piece, params);
+    all.together([&] { kept = boundary_of(p, params, surfaces); });
     pin_fixed(p, params.fixed, kept);
     if (slides(p, kept)) s.body().slide(std::move(kept.slides));
     s.constrain(kept.pins);
