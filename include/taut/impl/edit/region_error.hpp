@@ -22,7 +22,8 @@ enum class region_fault
     pinched,            ///< vertices where it touches itself
     no_boundary,        ///< no ids: it is the whole surface
     several_boundaries, ///< one vertex of each boundary loop
-    handles             ///< no ids
+    handles,            ///< no ids
+    flat                ///< no ids: its rim encloses no area, so that its base has no direction
 };
 
 /// Error of a region that cannot be cut out as a disk. what() has the reason and the remedy.
