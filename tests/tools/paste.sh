@@ -52,6 +52,17 @@ test_paste()
     error_says '--at 9999: source.obj has vertices 0 to 624'
     expect 4 paste --source source.obj --at 312 --radius 0.2 --target target.off --onto 9999 -o out.obj
     error_says '--onto 9999: target.off has vertices 0 to 960'
+    expect 4 paste --source source.obj --at 312 --radius 1e-9 --target target.off --onto 480 -o out.obj
+    error_says 'within the radius 1e-09'
+    expect 2 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --texels 64
+    error_says '--texels' '--map or --triangles'
+    expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o turned.obj --rotate 90
+    expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --rotate 36000000090
+    cmp out.obj turned.obj || fail 'whole turns change the result'
+    expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --triangles 100000000
+    says out 'note +--triangles 100000000: [0-9,]+ triangles, as more show nothing of the map'
+    expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --triangles 1
+    says out 'note +--triangles 1: [0-9]+ triangles, as the rim'
     octahedron >closed.obj
     expect 4 paste --source source.obj --at 312 --radius 0.25 --target closed.obj --onto 0 --scale 1000 -o out.obj
     error_says 'no room for the feature' 'smaller scale'

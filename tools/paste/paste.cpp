@@ -50,7 +50,8 @@ namespace
 struct paste_options
 {
     std::string source, target, region, output, map, stats, picture, render, device;
-    int at = -1, onto = -1, triangles = 0, texels = impl::feature_map_params{}.resolution;
+    int at = -1, onto = -1, triangles = 0;
+    std::optional<int> texels;
     double radius = 0, degrees = 0, reach = paste_params{}.reach;
     paste_pose pose;
     double time_limit = std::numeric_limits<double>::infinity();
@@ -62,6 +63,8 @@ void check(const paste_options& options)
 {
     if (options.region.empty() == (options.at < 0 || !(options.radius > 0)))
         throw usage_error("define the feature: --at V --radius R, or --region FILE, and not both");
+    if (options.texels && options.map.empty() && options.triangles == 0)
+        throw usage_error("--texels is the size of a map, and none is made; add --map or --triangles, or leave it out");
 }
 
 /// One run of `taut paste`.
@@ -94,7 +97,7 @@ public:
         device_seconds_ = command_.clock.timed([&] { q = open_queue(options_.device, false); });
         device_ = q->device().name();
         paste_params params{.pose = options_.pose, .reach = options_.reach};
-        params.pose.turn = options_.degrees * std::numbers::pi / 180;
+        params.pose.turn = std::remainder(options_.degrees, 360) * std::numbers::pi / 180;
         const double softness = std::exchange(params.pose.softness, 0);
         paste_seconds_ = command_.clock.timed(
             [&]
@@ -138,14 +141,28 @@ private:
     {
         const auto uv = parameterize_feature(q, *paste_);
         if (!uv) throw no_valid_map("the feature has no map with its rim where it meets the target: " + uv.reason());
-        map_ = make_feature_map(q, paste_->part(), uv.uv,
-                                {.resolution = options_.texels,
-                                 .margin = std::min(impl::feature_map_params{}.margin, options_.texels / 4)});
+        impl::feature_map_params params;
+        params.resolution = options_.texels.value_or(params.resolution);
+        params.margin = std::min(params.margin, params.resolution / 4);
+        map_ = make_feature_map(q, paste_->part(), uv.uv, params);
         if (options_.triangles == 0) return;
         const auto before = paste_->part().region.surface;
         paste_->refill(tessellate(q, paste_->part(), *map_, uv.uv, options_.triangles));
         const auto& after = paste_->part().region.surface;
+        note_triangles(after.cell_count());
         distance_ = std::max(largest_distance(before, after), largest_distance(after, before));
+    }
+
+    /// Notes a tessellation that is far from the number of triangles that was asked for, and why.
+    void note_triangles(idx made)
+    {
+        constexpr double near = 0.8;
+        const bool fewer = made < near * options_.triangles;
+        if (!fewer && options_.triangles >= near * made) return;
+        tessellation_note_ = "--triangles " + std::to_string(options_.triangles) + ": " +
+                             count(static_cast<std::uint64_t>(made), "triangle", "triangles") + ", as " +
+                             (fewer ? "more show nothing of the map; name more --texels"
+                                    : "the rim and the shape within need that many");
     }
 
     /// Largest distance of corners, middles of edges and centroids of one surface from another one.
@@ -331,6 +348,7 @@ private:
         for (const auto& [file, path] :
              {std::pair(&*source_, &options_.source), std::pair(&*target_, &options_.target)})
             for (const auto& note : file->notes) lines.add("note", *path + ": " + note);
+        if (!tessellation_note_.empty()) lines.add("note", tessellation_note_);
         for (const auto& note : notes_of(quality_, meeting_)) lines.add("note", note);
         lines.add("time", duration(total_seconds_) + ": read " + duration(read_seconds_) + ", device " +
                               duration(device_seconds_) + ", paste " + duration(paste_seconds_));
@@ -347,6 +365,7 @@ private:
     impl::seam_quality quality_;
     std::vector<std::array<idx, 2>> meeting_; ///< triangles of the result, which did not in what it is made of
     std::string device_;
+    std::string tessellation_note_;
     double distance_ = 0; ///< of the tessellation from the feature, in units of the source
     double read_seconds_ = 0, device_seconds_ = 0, paste_seconds_ = 0, map_seconds_ = 0, total_seconds_ = 0;
 
@@ -397,7 +416,9 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
     add_output(app, "-o,--output", options->output, {.extensions = {".obj"}}, "Surface to write; - is standard output")
         ->required()
         ->type_name("OUT.obj");
-    app.add_option("--triangles", options->triangles, "Remesh the feature from its map, with about this many triangles")
+    app.add_option(
+           "--triangles", options->triangles,
+           "Remesh the feature from its map, with about this many triangles, fewer where more show nothing of the map")
         ->type_name("N")
         ->check(CLI::Range(1, 100'000'000));
     add_output(app, "--map", options->map, {.extensions = {".exr", ".png"}},

@@ -67,7 +67,7 @@ std::string text_of(const untangle_report& r, const untangle_options& o)
     for (const auto& note : r.notes) std::cerr << "taut: note: " << printable(note) << '\n';
     labelled_lines lines;
     lines.add("problem", o.input + ": " + count(r.vertices, "vertex", "vertices") + ", " + r.cells + ", " +
-                             count(r.pinned) + " vertices pinned");
+                             count(r.pinned, "vertex pinned", "vertices pinned"));
     if (!r.device_label.empty()) lines.add("device", r.device_label);
     lines.add("inverted", count(r.before.flipped) + " -> " + count(r.after.flipped) + " of " + count(r.elements));
     if (r.before.branched + r.after.branched > 0)

@@ -292,7 +292,8 @@ private:
     std::string picture_of_problem(const std::string& name) const requires(D == 2)
     {
         std::vector<layout_input> maps{
-            {problem_->initial, {.title = name + ": before", .note = count(report_.pinned) + " vertices pinned"}}};
+            {problem_->initial,
+             {.title = name + ": before", .note = count(report_.pinned, "vertex pinned", "vertices pinned")}}};
         if (!map_.empty())
             maps.push_back(
                 {map_, {.title = "after", .note = report_.outcome + (valid_ ? " by " + report_.stage : "")}});

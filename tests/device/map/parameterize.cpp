@@ -288,7 +288,10 @@ TEST_CASE("parameterize: without double precision the start survives what float 
     const auto m = dome();
     for (const auto method : methods)
     {
-        CHECK(parameterize(q, m, {.energy = dirichlet{}, .precision = precision::fp32, .solve = {.method = method}}));
+        CHECK(parameterize(q, m,
+                           {.energy = dirichlet{},
+                            .precision = precision::fp32,
+                            .solve = {.method = method, .stopping = {.max_iterations = 300}}}));
         // By default it does with what the device has.
         const auto r = parameterize(q, m, {.solve = {.method = method, .stopping = {.gradient_tolerance = 1e-4}}});
         CHECK(r);

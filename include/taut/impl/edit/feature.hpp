@@ -30,7 +30,7 @@ struct feature
     }
 };
 
-/// Makes a feature of a region. Throws parameter_error for a region whose rim encloses no area: its base has no normal.
+/// Makes a feature of a region. Throws region_error for a region whose rim encloses no area: its base has no normal.
 inline feature make_feature(impl::surface_region region)
 {
     feature f{.region = impl::split_chords(std::move(region))};
@@ -52,8 +52,9 @@ inline feature make_feature(impl::surface_region region)
         f.radius = std::max(f.radius, glm::distance(at(i), f.centre));
     }
     if (!(glm::length(area) > 1e-6 * length * length))
-        throw parameter_error("region",
-                              "its rim encloses no area, so that its base has no direction; choose another one");
+        throw region_error(
+            region_error::flat, {},
+            "the rim of the region encloses no area, so that its base has no direction; choose another one");
     f.normal = glm::normalize(area);
     return f;
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/core/short_number.hpp>
 #include <taut/impl/edit/geodesic_distances.hpp>
 #include <taut/impl/edit/surface/face_set.hpp>
 #include <taut/impl/mesh/boundary.hpp>
@@ -134,7 +135,7 @@ inline impl::surface_region geodesic_disk(const mesh<triangle>& m, idx centre, d
     if (start < 0)
         throw region_error(region_error::empty, {centre},
                            "no triangle around vertex " + std::to_string(centre) + " is within the radius " +
-                               std::to_string(radius) + "; name a larger one");
+                               impl::short_number(radius) + "; name a larger one");
     set.keep_component(start);
     set.fill_holes();
     set.smooth_rim(start);

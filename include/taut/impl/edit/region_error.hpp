@@ -19,7 +19,8 @@ struct region_faults
         pinched,            ///< vertices where it touches itself
         no_boundary,        ///< no ids: it is the whole surface
         several_boundaries, ///< one vertex of each boundary loop
-        handles             ///< no ids
+        handles,            ///< no ids
+        flat                ///< no ids: its rim encloses no area, so that its base has no direction
     };
 };
 using region_fault = region_faults::fault_kind;

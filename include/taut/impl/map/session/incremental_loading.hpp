@@ -55,7 +55,7 @@ class incremental_loading
 {
 public:
     static constexpr int D = Element::dimension;
-    using map = std::vector<vec<D>>;
+    using coordinates = std::vector<vec<D>>;
 
     /// proof_sought: whether a proof was sought that there is no such map. Refers to its arguments.
     incremental_loading(running_map<Element>& map, session_call& call, const untangle_params& untangling,
@@ -65,7 +65,7 @@ public:
     }
 
     /// last: the map. Returns whether all are at their targets.
-    bool run(const map& last)
+    bool run(const coordinates& last)
     {
         if (may_guess() && paths(last).parts() > 1 && guess(last)) return true;
         bool arrived = follow(last);
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    prescribed_paths<D> paths(const map& from) const
+    prescribed_paths<D> paths(const coordinates& from) const
     {
         return {map_.of().rest.cells(), map_.fixed.marks(), from, map_.fixed.targets()};
     }
@@ -94,7 +94,7 @@ private:
     bool may_guess() const { return D == 3 && Element::oriented && map_.fixed.slides().empty() && call_.lasts(20); }
 
     /// Tries an initial guess with fixed vertices at their targets. Returns whether it was taken.
-    bool guess(const map& last)
+    bool guess(const coordinates& last)
     {
         guessed_ = true;
         hard_ = false;
@@ -116,7 +116,7 @@ private:
     }
 
     /// Follows the path from a map in parts; returns whether its end was reached.
-    bool follow(const map& from)
+    bool follow(const coordinates& from)
     {
         const auto path = paths(from);
         const int parts = path.parts();
