@@ -489,6 +489,16 @@ def stops():
         assert stats("s.json")["complete"] == (done.returncode == 0)
         judge("rough.out.obj", points, faces, samples=128)
 
+    # Rougher than its triangles are large: no two of them are seen from one side. There are few charts all the same.
+    points, faces = ball(40)
+    points = [[c + rng.gauss(0, 0.06) for c in p] for p in points]
+    write("spiky.obj", points, faces)
+    done = subprocess.run([TAUT, "atlas", "spiky.obj", "-o", "spiky.out.obj", "--time-limit", "0.5", "--stats", "s.json"],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 8, done.stderr
+    assert stats("s.json")["charts"] < 300 and stats("s.json")["distortion"] < 100, stats("s.json")["charts"]
+    judge("spiky.out.obj", points, faces, samples=128)
+
 
 def main():
     shutil.rmtree(FOLDER, ignore_errors=True)
