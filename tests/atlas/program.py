@@ -188,6 +188,17 @@ def short_seams():
                          capture_output=True, env={**os.environ, "TAUT_THREADS": "1"})
     assert one.returncode == 0 and pathlib.Path("one.obj").read_bytes() == pathlib.Path("out.obj").read_bytes()
 
+    # So is one of a rough surface, whose charts are parted where they lie on themselves.
+    rng = random.Random(2)
+    points, faces = ball(12)
+    write("jagged.obj", [[c + rng.gauss(0, 0.06) for c in p] for p in points], faces)
+    made = []
+    for threads in "12":
+        subprocess.run([TAUT, "atlas", "jagged.obj", "-o", "jagged.uv.obj", "--quiet"], check=True,
+                       env={**os.environ, "TAUT_THREADS": threads, "POCL_MAX_PTHREAD_COUNT": threads})
+        made.append(pathlib.Path("jagged.uv.obj").read_bytes())
+    assert made[0] == made[1]
+
 
 def parts_holes_and_padding():
     points, faces = ball(8)

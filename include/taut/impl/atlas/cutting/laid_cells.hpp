@@ -35,6 +35,7 @@ inline std::size_t flat_charts::lay_cells(laid_triangles& laid, std::span<const 
 inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char> wanted)
 {
     constexpr double part = 0.1, longest = 0.5; // seconds
+    constexpr std::size_t many = 50'000;        // triangles, too many to part in that time
     std::vector<idx> triangles, number(mesh_.points().size(), -1);
     for (std::size_t c = 0; c < wanted.size(); ++c)
         if (wanted[c]) triangles.push_back(static_cast<idx>(c));
@@ -68,7 +69,7 @@ inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char>
         else
             for (auto i = first; i < end; ++i) some.push_back(own.triangles[i]);
     }
-    if (some.empty()) return;
+    if (some.empty() || some.size() > many) return;
     std::sort(some.begin(), some.end());
     auto parted = laid;
     auto seam = seam_;
