@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,32 @@
 
 namespace taut::impl
 {
+
+/// Energy of the chart of each of these triangles, ascending ones of whole charts; infinite where it overlaps itself.
+/// seam, uv: one per side and corner of the surface
+inline std::vector<double> parted_energies(const mesh<triangle>& m, std::span<const idx> some,
+                                           std::span<const char> seam, std::span<const vec2> uv)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    std::vector<idx> number(m.points().size(), -1), place(m.cells().size(), -1);
+    for (std::size_t i = 0; i < some.size(); ++i) place[u(some[i])] = static_cast<idx>(i);
+    const surface_part part = part_of(m, some, seam, number);
+    std::vector<vec2> own(part.charts.surface.points().size());
+    for (std::size_t i = 0; i < part.triangles.size(); ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            own[u(part.charts.surface.cells()[i][j])] = uv[3 * u(part.triangles[i]) + j];
+    const auto crossing = crossing_charts(part.charts, own);
+    const ideal_elements<triangle> ideal(part.charts.surface);
+    std::vector<double> energies(some.size());
+    for (std::size_t k = 0; k < crossing.size(); ++k)
+    {
+        const double energy =
+            crossing[k] ? std::numeric_limits<double>::infinity() : area_and_energy(part.charts, k, own, ideal).second;
+        for (auto i = u(part.charts.first_cell[k]); i < u(part.charts.first_cell[k + 1]); ++i)
+            energies[u(place[u(part.triangles[i])])] = energy;
+    }
+    return energies;
+}
 
 inline std::size_t flat_charts::lay_cells(laid_triangles& laid, std::span<const char> wanted)
 {
@@ -80,29 +107,19 @@ inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char>
     for (std::size_t k = 0; k < maps.charts.size(); ++k)
         for (auto i = u(own.charts.first_cell[k]); i < u(own.charts.first_cell[k + 1]); ++i)
             of[u(own.triangles[i])] = static_cast<idx>(k);
-    const surface_part then = part_of(mesh_, some, seam, number);
-    std::vector<vec2> uv(then.charts.surface.points().size());
-    for (std::size_t i = 0; i < then.triangles.size(); ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            uv[u(then.charts.surface.cells()[i][j])] = parted.uv[3 * u(then.triangles[i]) + j];
-    const auto still = crossing_charts(then.charts, uv);
-    const ideal_elements<triangle> ideal(then.charts.surface);
+    const auto then = parted_energies(mesh_, some, seam, parted.uv);
     std::vector<char> refused(maps.charts.size(), 0);
-    for (std::size_t k = 0; k < still.size(); ++k)
-        if (still[k]) refused[u(of[u(then.triangles[u(then.charts.first_cell[k])])])] = 1;
-    for (std::size_t k = 0; k < still.size(); ++k)
+    for (std::size_t i = 0; i < some.size(); ++i)
+        if (!(then[i] < std::numeric_limits<double>::infinity())) refused[u(of[u(some[i])])] = 1;
+    for (std::size_t i = 0; i < some.size(); ++i)
     {
-        const double energy = area_and_energy(then.charts, k, uv, ideal).second;
-        for (auto i = u(then.charts.first_cell[k]); i < u(then.charts.first_cell[k + 1]); ++i)
+        const auto c = u(some[i]);
+        if (refused[u(of[c])]) continue;
+        laid.energy[c] = then[i];
+        for (std::size_t s = 3 * c; s < 3 * c + 3; ++s)
         {
-            const auto c = u(then.triangles[i]);
-            if (refused[u(of[c])]) continue;
-            laid.energy[c] = energy;
-            for (std::size_t s = 3 * c; s < 3 * c + 3; ++s)
-            {
-                laid.uv[s] = parted.uv[s];
-                seam_[s] = seam[s];
-            }
+            laid.uv[s] = parted.uv[s];
+            seam_[s] = seam[s];
         }
     }
 }
