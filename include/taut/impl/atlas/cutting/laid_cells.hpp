@@ -86,7 +86,7 @@ inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char>
             for (std::size_t j = 0; j < 3; ++j) to.uv[3 * u(own.triangles[i]) + j] = maps.uv[u(cells[i][j])];
         }
     };
-    std::vector<idx> some; // triangles of charts that lie on themselves
+    std::vector<idx> some, of(mesh_.cells().size(), -1); // triangles of charts that lie on themselves; their charts
     for (std::size_t k = 0; k < maps.charts.size(); ++k)
     {
         const auto first = u(own.charts.first_cell[k]), end = u(own.charts.first_cell[k + 1]);
@@ -94,7 +94,7 @@ inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char>
         if (!crossing[k])
             take(k, laid);
         else
-            for (auto i = first; i < end; ++i) some.push_back(own.triangles[i]);
+            for (auto i = first; i < end; ++i) of[u(some.emplace_back(own.triangles[i]))] = static_cast<idx>(k);
     }
     if (some.empty() || some.size() > many) return;
     std::sort(some.begin(), some.end());
@@ -103,10 +103,6 @@ inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char>
     for (std::size_t k = 0; k < maps.charts.size(); ++k)
         if (crossing[k] && maps.charts[k].valid) take(k, parted);
     part_laid(mesh_, {seam, parted.uv, some}, side_prices(mesh_, facets_, params_.charts.together, factors_));
-    std::vector<idx> of(mesh_.cells().size(), -1); // the chart before
-    for (std::size_t k = 0; k < maps.charts.size(); ++k)
-        for (auto i = u(own.charts.first_cell[k]); i < u(own.charts.first_cell[k + 1]); ++i)
-            of[u(own.triangles[i])] = static_cast<idx>(k);
     const auto then = parted_energies(mesh_, some, seam, parted.uv);
     std::vector<char> refused(maps.charts.size(), 0);
     for (std::size_t i = 0; i < some.size(); ++i)
