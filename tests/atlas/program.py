@@ -188,6 +188,17 @@ def short_seams():
                          capture_output=True, env={**os.environ, "TAUT_THREADS": "1"})
     assert one.returncode == 0 and pathlib.Path("one.obj").read_bytes() == pathlib.Path("out.obj").read_bytes()
 
+    # So is one of a rough surface, whose charts are parted where they lie on themselves.
+    rng = random.Random(2)
+    points, faces = ball(12)
+    write("jagged.obj", [[c + rng.gauss(0, 0.06) for c in p] for p in points], faces)
+    made = []
+    for threads in "12":
+        subprocess.run([TAUT, "atlas", "jagged.obj", "-o", "jagged.uv.obj", "--quiet"], check=True,
+                       env={**os.environ, "TAUT_THREADS": threads, "POCL_MAX_PTHREAD_COUNT": threads})
+        made.append(pathlib.Path("jagged.uv.obj").read_bytes())
+    assert made[0] == made[1]
+
 
 def parts_holes_and_padding():
     points, faces = ball(8)
@@ -488,6 +499,16 @@ def stops():
         assert done.returncode in (8, 0), done.stderr
         assert stats("s.json")["complete"] == (done.returncode == 0)
         judge("rough.out.obj", points, faces, samples=128)
+
+    # Rougher than its triangles are large: no two of them are seen from one side. There are few charts all the same.
+    points, faces = ball(40)
+    points = [[c + rng.gauss(0, 0.06) for c in p] for p in points]
+    write("spiky.obj", points, faces)
+    done = subprocess.run([TAUT, "atlas", "spiky.obj", "-o", "spiky.out.obj", "--time-limit", "0.5", "--stats", "s.json"],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 8, done.stderr
+    assert stats("s.json")["charts"] < 300 and stats("s.json")["distortion"] < 100, stats("s.json")["charts"]
+    judge("spiky.out.obj", points, faces, samples=128)
 
 
 def main():

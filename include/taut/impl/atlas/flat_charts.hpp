@@ -16,7 +16,7 @@
 #include <taut/impl/atlas/atlas_params.hpp>
 #include <taut/impl/atlas/atlas_report.hpp>
 #include <taut/impl/atlas/atlas_summary.hpp>
-#include <taut/impl/atlas/crossing_charts.hpp>
+#include <taut/impl/atlas/cutting/disk_cells.hpp>
 #include <taut/impl/atlas/round_polygon.hpp>
 #include <taut/impl/atlas/seams/openness.hpp>
 #include <taut/impl/atlas/seams/seam_factors.hpp>
@@ -135,16 +135,16 @@ protected:
     /// Charts along short seams (short_charts.hpp).
     void cut_short();
 
-    /// The charts of a run that has ended; those without a good map as they are seen.
+    /// The charts of a run that has ended; those without a good map are divided into cells.
     void cut_unfinished(laid_triangles laid, std::span<const char> crosses)
     {
         const double bound = params_.charts.max_distortion;
-        const double most = std::max(seen_patches::most_energy, std::isfinite(bound) ? bound : 4.0);
+        const double most = std::max(cell_growing::kept, std::isfinite(bound) ? bound : 4.0);
         std::vector<char> wanted(laid.energy.size());
         for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
         if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)
-            report_.notes.push_back("parts without a map by then became " + std::to_string(lay_patches(laid, wanted)) +
-                                    " planar-projection charts");
+            report_.notes.push_back("parts without a map by then became " + std::to_string(lay_cells(laid, wanted)) +
+                                    " charts, mapped at once");
         cut(laid);
     }
 
@@ -259,7 +259,7 @@ protected:
     {
         keep_apart(bad);
         if (!params_.keep_charts && report_.complete) bad = part_overlaps(std::move(bad));
-        if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad);
+        if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(bad, 0);
     }
 
     /// Parts these charts, one flag each, where they lie on themselves. Returns the flags of those that are unfit then.
@@ -310,9 +310,9 @@ protected:
         report_.seconds.flatten += budget_.total() - begin;
     }
 
-    /// Divides these charts into planar-projection patches, unless they are to be kept. largest: maximum number of
-    /// triangles of a patch
-    void take_apart(const std::vector<char>& bad, std::size_t largest = 1024)
+    /// Divides these charts, unless they are to be kept: into planar-projection patches of so many triangles at most,
+    /// or, where that is 0, into cells.
+    void take_apart(const std::vector<char>& bad, std::size_t largest)
     {
         if (!report_.reason.empty()) return;
         const auto first_bad = static_cast<std::size_t>(std::find(bad.begin(), bad.end(), char(1)) - bad.begin());
@@ -327,29 +327,29 @@ protected:
             for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
                 wanted[u(charts_->cell_origins[i])] = bad[k];
         auto laid = triangles_as_laid();
-        const auto patches = lay_patches(laid, std::move(wanted), largest);
+        const auto made = largest > 0 ? lay_patches(laid, wanted, largest) : lay_cells(laid, wanted);
         cut(laid);
         const auto count = std::count(bad.begin(), bad.end(), char(1));
         report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") + " without a map became " +
-                                std::to_string(patches) + ", laid as they are seen");
+                                std::to_string(made) + (largest > 0 ? ", laid as they are seen" : ", mapped at once"));
     }
 
     /// Divides these triangles, one flag each, into patches of a maximum size. Returns the number of patches.
-    std::size_t lay_patches(laid_triangles& laid, std::vector<char> wanted, std::size_t largest = 1024)
+    std::size_t lay_patches(laid_triangles& laid, std::span<const char> wanted, std::size_t largest)
     {
-        constexpr std::ptrdiff_t many = 50'000; // worth more threads, where what comes of it is for want of time
-        if (!report_.complete && std::count(wanted.begin(), wanted.end(), char(1)) > many)
-        {
-            const auto octant = octants(mesh_);
-            for (std::size_t c = 0; c < wanted.size(); ++c)
-                if (wanted[c] != 0) wanted[c] = octant[c];
-        }
         const auto seen = lay_as_seen(mesh_, facets_, wanted, params_.charts.seams, largest);
         lay_anew(
             laid, [&](std::size_t c) { return seen.patch[c]; }, [&](idx patch) { return seen.energy[u(patch)]; },
             [&](std::size_t c, std::size_t k) { return seen.uv[c][k]; });
         return seen.energy.size();
     }
+
+    /// Divides these triangles, one flag each, into cells, and maps these at once. Returns the number of cells.
+    std::size_t lay_cells(laid_triangles& laid, std::span<const char> wanted);
+
+    /// Takes steps with the maps of cells, for a tenth of the time that the run has taken. Cells that lie on themselves
+    /// then are parted; where that fails, they stay as they were.
+    void relax_cells(laid_triangles& laid, std::span<const char> wanted);
 
     /// Triangles of the surface as mapped in the charts.
     laid_triangles triangles_as_laid() const
