@@ -136,7 +136,7 @@ On how many of the meshes that it ends on a peer is better than taut, and on how
 | peer | against | meshes | better | flips or overlaps |
 |---|---|---|---|---|
 """ + "\n".join(sentences(rows)) + "\n\n"
-    for kind in dict.fromkeys(r["kind"] for r in rows):
+    for kind in (k for k in HEADS if any(r["kind"] == k for r in rows)):
         text += HEADS[kind]
         columns, cells = (VOLUME_COLUMNS, "tetrahedra") if kind == "volume" else (COLUMNS, "triangles")
         for mesh in dict.fromkeys(r["mesh"] for r in rows if r["kind"] == kind):
