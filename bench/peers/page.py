@@ -100,6 +100,11 @@ def busy(rows):
     return f" (as here: the median call took {often:.1f} s a processor second)" if often > 1.2 else ""
 
 
+def of_runs(rows):
+    most = max(r.get("runs", 1) for r in rows)
+    return "of one run" if most == 1 else f"the median of up to {most} runs\n(of one, where it takes long)"
+
+
 def told(words):
     """The arguments, but for where the environment lies."""
     at = words.index("--folder") if "--folder" in words else len(words)
@@ -118,9 +123,8 @@ def write(path, rows, command, machine, cores):
 {shlex.join(['bench/peers.py', *told(command[1:])])}
 ```
 
-made this page, in one run on {cores} cores of {machine}. Each run is a process of its own; *s* are seconds of the call, the median of up to {max(r.get('runs', 1) for r in rows)} runs
-(of one, where it takes long), with kernels compiled before where there are any; *processor s* are those of all its threads, which say more where others use the machine, too{busy(rows)}. *MB* is the peak of the process. What is made is judged by `bench/peers/judge.py` and `volumes.py`, in which no package has a part.
-Meshes are of Debian's `libcgal-demo`. A peer that leaves another mesh is judged on that one. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
+made this page, in one run on {cores} cores of {machine}. Each run is a process of its own; *s* are seconds of the call, {of_runs(rows)}, with kernels compiled before where there are any; *processor s* are those of all its threads, which say more where others use the machine, too{busy(rows)}. *MB* is the peak of the process. What is made is judged by `bench/peers/judge.py` and `volumes.py`, in which no package has a part.
+Meshes are of Debian's `libcgal-demo`. A process ends at its limit of processor seconds, of all threads together. A peer that leaves another mesh is judged on that one. All run with their defaults; numbers of flips or overlaps other than 0 are bold.
 
 * *seam*: length of the edges that are cut, by the root of the area. *E*: area mean of |S|² (1 + 1/det²) at one common scale, 4 without distortion.
 * *flips*: triangles flipped within their chart. *overlap*: the part of what is covered that is covered twice, of 2048² points; less than a few 0.001 % may be rounding.
@@ -136,7 +140,7 @@ On how many of the meshes that it ends on a peer is better than taut, and on how
 | peer | against | meshes | better | flips or overlaps |
 |---|---|---|---|---|
 """ + "\n".join(sentences(rows)) + "\n\n"
-    for kind in dict.fromkeys(r["kind"] for r in rows):
+    for kind in (k for k in HEADS if any(r["kind"] == k for r in rows)):
         text += HEADS[kind]
         columns, cells = (VOLUME_COLUMNS, "tetrahedra") if kind == "volume" else (COLUMNS, "triangles")
         for mesh in dict.fromkeys(r["mesh"] for r in rows if r["kind"] == kind):
