@@ -21,6 +21,7 @@ void launch_all(taut::queue& q, const taut::mesh<taut::triangle>& surface, taut:
     auto x = f.make_point();
     f.upload(flat, x);
     f.warm_up(x);
+    f.value(x);
 }
 
 } // namespace

@@ -22,7 +22,7 @@ else
 fi
 
 failed=0
-for kernel in element_value element_gradient element_along element_first_flip gather_*_2x*; do
+for kernel in element_value element_gradient element_along element_first_flip 'gather_*_2'; do
     objects=$(find "$cache" -name "$kernel.so")
     [ -n "$objects" ] || { echo "$kernel: not in the cache"; failed=1; }
     for object in $objects; do

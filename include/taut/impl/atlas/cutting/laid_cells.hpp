@@ -71,7 +71,7 @@ inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char>
     std::vector<vec2> start(own.charts.surface.points().size());
     for (std::size_t i = 0; i < cells.size(); ++i)
         for (std::size_t k = 0; k < 3; ++k) start[u(cells[i][k])] = laid.uv[3 * u(own.triangles[i]) + k];
-    auto params = params_.flattening;
+    flatten_params params;
     params.initial = start;
     params.max_iterations = std::min(params.max_iterations, 25);
     params.tolerance = std::max(params.tolerance, 1e-3);
