@@ -143,7 +143,7 @@ protected:
         std::vector<char> wanted(laid.energy.size());
         for (std::size_t c = 0; c < wanted.size(); ++c) wanted[c] = crosses[c] != 0 || !(laid.energy[c] <= most);
         if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)
-            report_.notes.push_back("parts without a map by then became " + std::to_string(lay_cells(laid, wanted)) +
+            report_.notes.push_back("parts without a map by then became " + std::to_string(lay_at_once(laid, wanted)) +
                                     " charts, mapped at once");
         cut(laid);
     }
@@ -327,28 +327,26 @@ protected:
             for (auto i = u(charts_->first_cell[k]); i < u(charts_->first_cell[k + 1]); ++i)
                 wanted[u(charts_->cell_origins[i])] = bad[k];
         auto laid = triangles_as_laid();
-        const auto made = largest > 0 ? lay_patches(laid, wanted, largest) : lay_cells(laid, wanted);
+        const auto made = largest > 0
+                              ? take_patches(laid, lay_as_seen(mesh_, facets_, wanted, params_.charts.seams, largest))
+                              : lay_at_once(laid, wanted);
         cut(laid);
         const auto count = std::count(bad.begin(), bad.end(), char(1));
         report_.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") + " without a map became " +
                                 std::to_string(made) + (largest > 0 ? ", laid as they are seen" : ", mapped at once"));
     }
 
-    /// Divides these triangles, one flag each, into patches of a maximum size. Returns the number of patches.
-    std::size_t lay_patches(laid_triangles& laid, std::span<const char> wanted, std::size_t largest)
-    {
-        const auto seen = lay_as_seen(mesh_, facets_, wanted, params_.charts.seams, largest);
-        lay_anew(
-            laid, [&](std::size_t c) { return seen.patch[c]; }, [&](idx patch) { return seen.energy[u(patch)]; },
-            [&](std::size_t c, std::size_t k) { return seen.uv[c][k]; });
-        return seen.energy.size();
-    }
+    /// Takes patches as charts. Returns their number.
+    std::size_t take_patches(laid_triangles& laid, const seen_patches& seen);
+
+    /// Divides these triangles, one flag each, into planar-projection patches, or into cells where the surface is too
+    /// rough for that. Returns the number of charts.
+    std::size_t lay_at_once(laid_triangles& laid, std::span<const char> wanted);
 
     /// Divides these triangles, one flag each, into cells, and maps these at once. Returns the number of cells.
     std::size_t lay_cells(laid_triangles& laid, std::span<const char> wanted);
 
-    /// Takes steps with the maps of cells, for a tenth of the time that the run has taken. Cells that lie on themselves
-    /// then are parted; where that fails, they stay as they were.
+    /// Takes steps with the maps of cells, for a tenth of the time so far, and parts those that lie on themselves then.
     void relax_cells(laid_triangles& laid, std::span<const char> wanted);
 
     /// Triangles of the surface as mapped in the charts.

@@ -12,6 +12,7 @@
 #include <taut/impl/atlas/cutting/part_charts.hpp>
 #include <taut/impl/atlas/cutting/way_prices.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
+#include <taut/impl/atlas/seen_patches.hpp>
 
 namespace taut::impl
 {
@@ -40,6 +41,32 @@ inline std::vector<double> parted_energies(const mesh<triangle>& m, std::span<co
             energies[u(place[u(part.triangles[i])])] = energy;
     }
     return energies;
+}
+
+inline std::size_t flat_charts::take_patches(laid_triangles& laid, const seen_patches& seen)
+{
+    lay_anew(
+        laid, [&](std::size_t c) { return seen.patch[c]; }, [&](idx patch) { return seen.energy[u(patch)]; },
+        [&](std::size_t c, std::size_t k) { return seen.uv[c][k]; });
+    return seen.energy.size();
+}
+
+inline std::size_t flat_charts::lay_at_once(laid_triangles& laid, std::span<const char> wanted)
+{
+    constexpr std::size_t fewest = 10;    // triangles of a patch in the mean; cells are fewer, but more distorted
+    constexpr std::size_t many = 50'000;  // triangles, worth more threads
+    constexpr std::size_t most = 200'000; // triangles, whose cells take seconds
+    constexpr std::size_t largest = 1024; // triangles of a patch
+    const auto all = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), char(1)));
+    std::vector<char> parts(wanted.begin(), wanted.end());
+    if (!report_.complete && all > many)
+    {
+        const auto octant = octants(mesh_);
+        for (std::size_t c = 0; c < parts.size(); ++c)
+            if (parts[c] != 0) parts[c] = octant[c];
+    }
+    const auto seen = lay_as_seen(mesh_, facets_, parts, params_.charts.seams, largest);
+    return all > most || all >= fewest * seen.energy.size() ? take_patches(laid, seen) : lay_cells(laid, wanted);
 }
 
 inline std::size_t flat_charts::lay_cells(laid_triangles& laid, std::span<const char> wanted)
