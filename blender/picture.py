@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """picture.py OUT.png: a monkey with a checkerboard, and its UV map, by Blender's Conformal and by taut's Unwrap, along
-the same seams; rendered by Cycles. For Blender as a Python module, with the package taut on PYTHONPATH."""
+the same seams; rendered by Cycles, with TAUT_THEME=dark on a dark ground. For Blender as a Python module, with the package
+taut on PYTHONPATH."""
 
 import math
+import os
 import pathlib
 import sys
 
@@ -89,6 +91,19 @@ def light_and_camera():
     world.node_tree.nodes["Background"].inputs["Color"].default_value = (1, 1, 1, 1)
     world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.7
     scene.world = world
+    if os.environ.get("TAUT_THEME") == "dark":
+        darken(world.node_tree)
+
+
+def darken(tree):
+    """The light stays; the camera sees a dark world."""
+    nodes, links = tree.nodes, tree.links
+    dark, mix, path = (nodes.new(kind) for kind in ("ShaderNodeBackground", "ShaderNodeMixShader", "ShaderNodeLightPath"))
+    dark.inputs["Color"].default_value = (0.008, 0.0097, 0.0137, 1)  # linear; (22, 25, 31) in sRGB
+    links.new(path.outputs["Is Camera Ray"], mix.inputs["Fac"])
+    links.new(nodes["Background"].outputs["Background"], mix.inputs[1])
+    links.new(dark.outputs["Background"], mix.inputs[2])
+    links.new(mix.outputs["Shader"], nodes["World Output"].inputs["Surface"])
 
 
 def main():
@@ -110,3 +125,4 @@ def main():
 
 
 main()
+os._exit(0)  # Blender as a module may wait for its threads for ever when it ends

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <picture/color.hpp>
+#include <picture/palette.hpp>
 #include <taut/impl/core/error.hpp>
 
 namespace taut::io
@@ -56,8 +56,8 @@ private:
 
 static_assert(sizeof(rgb) == 3, "bytes() relies on packed pixels");
 
-/// Pictures next to each other, top edges aligned, with `gap` white pixels between them: before and after.
-inline image side_by_side(const std::vector<image>& pictures, int gap = 0)
+/// Pictures next to each other, top edges aligned, with `gap` pixels of the ground between them: before and after.
+inline image side_by_side(const std::vector<image>& pictures, int gap = 0, rgb ground = wished_palette().ground)
 {
     int width = pictures.empty() ? 0 : gap * (static_cast<int>(pictures.size()) - 1), height = 0;
     for (const image& p : pictures)
@@ -65,7 +65,7 @@ inline image side_by_side(const std::vector<image>& pictures, int gap = 0)
         width += p.width();
         height = std::max(height, p.height());
     }
-    image sheet(width, height);
+    image sheet(width, height, ground);
     int left = 0;
     for (const image& p : pictures)
     {

@@ -14,9 +14,6 @@
 namespace taut::io
 {
 
-/// The colour of constraints: no colour scale here comes near it, and magenta is far.
-inline constexpr rgb pin_color{0, 94, 190};
-
 /// A constraint on one vertex of a layout, in uv.
 struct layout_pin
 {

@@ -20,7 +20,8 @@
 namespace taut::io::impl
 {
 
-inline constexpr rgb ink{38, 42, 50}, soft_ink{98, 104, 116}, edge_ink{40, 30, 20};
+/// Of the edges of triangles: dark on every ground, as the faces below them are light.
+inline constexpr rgb edge_ink{40, 30, 20};
 
 /// Calls edge(a, b) with the uv points of each drawable edge of a closed vertex loop, in order.
 template <class Edge>

@@ -31,7 +31,7 @@ inline void draw_faces(canvas& paper, const layout_frame& frame, std::span<const
 }
 
 inline void draw_boundary(canvas& paper, const layout_frame& frame, std::span<const vec2> uv,
-                          const std::vector<std::vector<idx>>& loops)
+                          const std::vector<std::vector<idx>>& loops, rgb ink)
 {
     for (const auto& loop : loops)
         for_each_boundary_edge(
@@ -62,30 +62,30 @@ inline void draw_flips(canvas& paper, const layout_frame& frame, std::span<const
     }
 }
 
-inline void draw_mark(canvas& paper, const pin_mark& mark, double unit)
+inline void draw_mark(canvas& paper, const pin_mark& mark, double unit, const palette& colors)
 {
     switch (mark.form)
     {
     case pin_mark::disc:
-        paper.line(mark.at, mark.at, 2 * mark.radius, pin_color);
+        paper.line(mark.at, mark.at, 2 * mark.radius, colors.pin);
         break;
     case pin_mark::rail:
-        paper.line(mark.low, mark.high, 0.8 * mark.radius, pin_color);
+        paper.line(mark.low, mark.high, 0.8 * mark.radius, colors.pin);
         break;
     case pin_mark::ring:
-        paper.line(mark.at, mark.at, 2 * mark.radius, {255, 255, 255});
-        paper.ring(mark.at, mark.radius, std::max(1.6 * unit, 1.0), pin_color);
+        paper.line(mark.at, mark.at, 2 * mark.radius, colors.ground);
+        paper.ring(mark.at, mark.radius, std::max(1.6 * unit, 1.0), colors.pin);
         break;
     }
 }
 
 /// Lines of displacement first, so that none runs over a pin.
-inline void draw_overlay(canvas& paper, const layout_frame& frame, const layout_overlay& overlay)
+inline void draw_overlay(canvas& paper, const layout_frame& frame, const layout_overlay& overlay, const palette& colors)
 {
     const auto marks = pin_marks(overlay, frame, frame.unit);
     for (const auto& mark : marks)
-        if (mark.moved) paper.line(mark.from, mark.at, std::max(1.4 * frame.unit, 1.0), pin_color, 0.7);
-    for (const auto& mark : marks) draw_mark(paper, mark, frame.unit);
+        if (mark.moved) paper.line(mark.from, mark.at, std::max(1.4 * frame.unit, 1.0), colors.pin, 0.7);
+    for (const auto& mark : marks) draw_mark(paper, mark, frame.unit, colors);
     for (const vec2& at : branch_marks(overlay, frame))
     {
         paper.line(at, at, 5 * frame.unit, magenta);
@@ -98,8 +98,9 @@ inline void draw_legend(canvas& paper, const layout_frame& frame, const face_sur
 {
     const double u = frame.unit;
     const vec2 low = frame.bar_low, high = frame.bar_high;
+    const rgb ink = style.colors.ink;
     draw_text(paper, low - vec2(0, 46 * u), style.scale, {.size = 19 * u, .weight = 0.1, .color = ink});
-    draw_text(paper, low - vec2(0, 23 * u), style.formula, {.size = 15 * u, .color = soft_ink});
+    draw_text(paper, low - vec2(0, 23 * u), style.formula, {.size = 15 * u, .color = style.colors.soft_ink});
 
     const auto height = [&](double t) { return high.y + t * (low.y - high.y); };
     paper.fill_rectangle(low - vec2(u), high + vec2(u), ink);
@@ -124,7 +125,7 @@ inline void draw_legend(canvas& paper, const layout_frame& frame, const face_sur
     for (const auto& [hard, text] : pin_legend(overlay))
     {
         const vec2 at((low.x + high.x) / 2, y - 6 * u);
-        draw_mark(paper, {hard ? pin_mark::disc : pin_mark::ring, at, at, at, at, false, 6 * u}, u);
+        draw_mark(paper, {hard ? pin_mark::disc : pin_mark::ring, at, at, at, at, false, 6 * u}, u, style.colors);
         draw_text(paper, {high.x + 14 * u, y}, text, {.size = 17 * u, .color = ink});
         y += 28 * u;
     }
@@ -133,7 +134,7 @@ inline void draw_legend(canvas& paper, const layout_frame& frame, const face_sur
 } // namespace impl
 
 /// A picture of a UV layout: every face in the colour of its distortion on a fixed scale with a legend, flipped faces
-/// in magenta on top, the boundary in dark, triangle edges if there are few.
+/// in magenta on top, the boundary in ink, triangle edges if there are few.
 ///
 /// uv: position of each vertex; v points up. cells: corners of each face. distortion: one number a face (see
 /// symmetric_distortion), or empty to draw plain faces. boundary_loops: closed vertex loops (see boundary_loops).
@@ -148,7 +149,7 @@ inline image layout_picture(std::span<const vec2> uv, std::span<const std::array
     const face_survey faces = survey_faces(uv, cells, distortion);
     const distortion_scale scale(style.lowest, style.highest);
     const layout_frame frame(impl::with_targets(uv, overlay), style);
-    canvas paper(style.width, style.height, style.samples, {255, 255, 255});
+    canvas paper(style.width, style.height, style.samples, style.colors.ground);
 
     impl::draw_faces(paper, frame, uv, cells, distortion, scale);
     // A pen thinner than the samples lie apart would miss some lines entirely.
@@ -157,15 +158,15 @@ inline image layout_picture(std::span<const vec2> uv, std::span<const std::array
         for (const auto& [a, b] : impl::layout_edges(uv, cells))
             paper.line(frame(uv[static_cast<std::size_t>(a)]), frame(uv[static_cast<std::size_t>(b)]), edge_pen,
                        impl::edge_ink, 0.35);
-    impl::draw_boundary(paper, frame, uv, boundary_loops);
+    impl::draw_boundary(paper, frame, uv, boundary_loops, style.colors.ink);
     impl::draw_flips(paper, frame, uv, cells, faces, style.most_rings);
-    impl::draw_overlay(paper, frame, overlay);
+    impl::draw_overlay(paper, frame, overlay, style.colors);
 
     const double u = frame.unit;
-    draw_text(paper, vec2(36, 48) * u, style.title, {.size = 28 * u, .weight = 0.1, .color = impl::ink});
+    draw_text(paper, vec2(36, 48) * u, style.title, {.size = 28 * u, .weight = 0.1, .color = style.colors.ink});
     draw_text(paper, vec2(36, 80) * u, impl::layout_caption(faces, style, overlay),
-              {.size = 17 * u, .color = impl::soft_ink});
-    draw_text(paper, vec2(36, 106) * u, style.note, {.size = 17 * u, .color = impl::soft_ink});
+              {.size = 17 * u, .color = style.colors.soft_ink});
+    draw_text(paper, vec2(36, 106) * u, style.note, {.size = 17 * u, .color = style.colors.soft_ink});
     if (!distortion.empty() || !faces.flipped.empty() || !overlay.empty())
         impl::draw_legend(paper, frame, faces, scale, style, overlay);
     return paper.resolve();

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <picture/palette.hpp>
+
 namespace taut::io
 {
 
@@ -14,6 +16,8 @@ struct layout_style
     int width = 1200; ///< pixels, [1, 16384 / samples]
     int height = 900; ///< pixels, [1, 16384 / samples]
     int samples = 3;  ///< antialiasing: samples^2 colours a pixel, [1, 8]; 1 draws hard edges
+
+    palette colors = wished_palette();
 
     std::string title = {};            ///< first line; a map's name
     std::optional<double> energy = {}; ///< stated in the caption when given

@@ -56,7 +56,7 @@ inline void svg_faces(svg_writer& svg, const layout_frame& frame, std::span<cons
 }
 
 inline void svg_boundary(svg_writer& svg, const layout_frame& frame, std::span<const vec2> uv,
-                         const std::vector<std::vector<idx>>& loops)
+                         const std::vector<std::vector<idx>>& loops, rgb ink)
 {
     svg.begin_path("fill=\"none\" stroke=\"" + svg_writer::hex(ink) + "\" stroke-width=\"" +
                    svg_writer::pixels(16 * frame.unit) + "\" stroke-linejoin=\"round\" stroke-linecap=\"round\"");
@@ -105,9 +105,9 @@ inline void svg_edges(svg_writer& svg, const layout_frame& frame, std::span<cons
     svg.end_path();
 }
 
-inline void svg_mark(svg_writer& svg, const pin_mark& mark, double unit)
+inline void svg_mark(svg_writer& svg, const pin_mark& mark, double unit, const palette& colors)
 {
-    const std::string color = svg_writer::hex(pin_color);
+    const std::string color = svg_writer::hex(colors.pin);
     const auto circle = [&](const std::string& paint)
     {
         svg.raw("<circle cx=\"" + svg_writer::pixels(mark.at.x) + "\" cy=\"" + svg_writer::pixels(mark.at.y) +
@@ -126,13 +126,15 @@ inline void svg_mark(svg_writer& svg, const pin_mark& mark, double unit)
         svg.end_path();
         break;
     case pin_mark::ring:
-        circle("fill=\"#ffffff\" stroke=\"" + color + "\" stroke-width=\"" + svg_writer::pixels(1.6 * unit) + "\"");
+        circle("fill=\"" + svg_writer::hex(colors.ground) + "\" stroke=\"" + color + "\" stroke-width=\"" +
+               svg_writer::pixels(1.6 * unit) + "\"");
         break;
     }
 }
 
 /// Lines of displacement first, so that none runs over a pin.
-inline void svg_overlay(svg_writer& svg, const layout_frame& frame, const layout_overlay& overlay)
+inline void svg_overlay(svg_writer& svg, const layout_frame& frame, const layout_overlay& overlay,
+                        const palette& colors)
 {
     for (const vec2& at : branch_marks(overlay, frame))
         svg.raw("<circle cx=\"" + svg_writer::pixels(at.x) + "\" cy=\"" + svg_writer::pixels(at.y) + "\" r=\"" +
@@ -141,8 +143,8 @@ inline void svg_overlay(svg_writer& svg, const layout_frame& frame, const layout
                 svg_writer::pixels(2.4 * frame.unit) + "\"/>\n");
     const auto marks = pin_marks(overlay, frame, frame.unit);
     if (marks.empty()) return;
-    svg.begin_path("fill=\"none\" stroke-opacity=\".7\" stroke=\"" + svg_writer::hex(pin_color) + "\" stroke-width=\"" +
-                   svg_writer::pixels(14 * frame.unit) + "\"");
+    svg.begin_path("fill=\"none\" stroke-opacity=\".7\" stroke=\"" + svg_writer::hex(colors.pin) +
+                   "\" stroke-width=\"" + svg_writer::pixels(14 * frame.unit) + "\"");
     for (const auto& mark : marks)
         if (mark.moved)
         {
@@ -150,7 +152,7 @@ inline void svg_overlay(svg_writer& svg, const layout_frame& frame, const layout
             svg.line(mark.at);
         }
     svg.end_path();
-    for (const auto& mark : marks) svg_mark(svg, mark, frame.unit);
+    for (const auto& mark : marks) svg_mark(svg, mark, frame.unit, colors);
 }
 
 inline void svg_legend(svg_writer& svg, const layout_frame& frame, const face_survey& faces,
@@ -159,8 +161,9 @@ inline void svg_legend(svg_writer& svg, const layout_frame& frame, const face_su
     constexpr int stops = 16;
     const double u = frame.unit;
     const vec2 low = frame.bar_low, high = frame.bar_high;
+    const rgb ink = style.colors.ink;
     svg.words(low - vec2(0, 46 * u), style.scale, 19 * u, ink, true);
-    svg.words(low - vec2(0, 23 * u), style.formula, 15 * u, soft_ink);
+    svg.words(low - vec2(0, 23 * u), style.formula, 15 * u, style.colors.soft_ink);
 
     svg.raw("<defs><linearGradient id=\"scale\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">");
     for (int k = 0; k <= stops; ++k)
@@ -185,7 +188,7 @@ inline void svg_legend(svg_writer& svg, const layout_frame& frame, const face_su
     for (const auto& [hard, text] : pin_legend(overlay))
     {
         const vec2 at((low.x + high.x) / 2, y - 6 * u);
-        svg_mark(svg, {hard ? pin_mark::disc : pin_mark::ring, at, at, at, at, false, 6 * u}, u);
+        svg_mark(svg, {hard ? pin_mark::disc : pin_mark::ring, at, at, at, at, false, 6 * u}, u, style.colors);
         svg.words({high.x + 14 * u, y}, text, 17 * u, ink);
         y += 28 * u;
     }
@@ -206,18 +209,18 @@ inline std::string layout_svg(std::span<const vec2> uv, std::span<const std::arr
     const face_survey faces = survey_faces(uv, cells, distortion);
     const distortion_scale scale(style.lowest, style.highest);
     const layout_frame frame(impl::with_targets(uv, overlay), style);
-    impl::svg_writer svg(style.width, style.height);
+    impl::svg_writer svg(style.width, style.height, style.colors.ground);
 
     impl::svg_faces(svg, frame, uv, cells, distortion, scale);
     if (cells.size() < style.most_edges) impl::svg_edges(svg, frame, uv, cells);
-    impl::svg_boundary(svg, frame, uv, boundary_loops);
+    impl::svg_boundary(svg, frame, uv, boundary_loops, style.colors.ink);
     impl::svg_flips(svg, frame, uv, cells, faces, style.most_rings);
-    impl::svg_overlay(svg, frame, overlay);
+    impl::svg_overlay(svg, frame, overlay, style.colors);
 
     const double u = frame.unit;
-    svg.words(vec2(36, 48) * u, style.title, 28 * u, impl::ink, true);
-    svg.words(vec2(36, 80) * u, impl::layout_caption(faces, style, overlay), 17 * u, impl::soft_ink);
-    svg.words(vec2(36, 106) * u, style.note, 17 * u, impl::soft_ink);
+    svg.words(vec2(36, 48) * u, style.title, 28 * u, style.colors.ink, true);
+    svg.words(vec2(36, 80) * u, impl::layout_caption(faces, style, overlay), 17 * u, style.colors.soft_ink);
+    svg.words(vec2(36, 106) * u, style.note, 17 * u, style.colors.soft_ink);
     if (!distortion.empty() || !faces.flipped.empty() || !overlay.empty())
         impl::svg_legend(svg, frame, faces, scale, style, overlay);
     return svg.finish();

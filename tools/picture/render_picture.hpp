@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <picture/checker.hpp>
+#include <picture/palette.hpp>
 #include <picture/text.hpp>
 #include <picture/visibility.hpp>
 
@@ -25,6 +26,8 @@ struct render_style
     int width = 1600; ///< pixels, [1, 16384 / samples]; half of it for each view
     int height = 900; ///< pixels, [1, 16384 / samples]
     int samples = 3;  ///< antialiasing: samples^2 colours a pixel, [1, 8]
+
+    palette colors = wished_palette();
 
     std::string title = {}; ///< first line, top left
     double checks = 40;     ///< squares along a side of a square with the area of the map, > 0
@@ -163,12 +166,13 @@ inline image render_picture(std::span<const vec3> points, std::span<const std::a
                             std::span<const vec2> uv, const render_style& style = {})
 {
     if (!(style.checks > 0)) throw parameter_error("checks", "must be positive");
-    canvas paper(style.width, style.height, style.samples, {255, 255, 255});
+    canvas paper(style.width, style.height, style.samples, style.colors.ground);
     image& grid = paper.grid();
     for (int y = 0; y < grid.height(); ++y)
     {
         const double t = y / double(grid.height());
-        const rgb c = to_rgb(oklab_to_linear({0.985 - 0.06 * t * t, -0.002, -0.006 - 0.006 * t}));
+        const rgb c =
+            to_rgb(oklab_to_linear({style.colors.lightness - style.colors.fall * t * t, -0.002, -0.006 - 0.006 * t}));
         std::fill_n(&grid(0, y), grid.width(), c);
     }
 
@@ -195,9 +199,9 @@ inline image render_picture(std::span<const vec3> points, std::span<const std::a
             impl::draw_view(grid, left, width, scene,
                             {eyes[k], (boxes[k][0] + boxes[k][1]) / 2.0, scale, vec2(width, grid.height()) / 2.0});
         draw_text(paper, vec2((left + width / 2.0) / style.samples, style.height - 30 * unit), names[k],
-                  {.size = 20 * unit, .color = {98, 104, 116}, .at = anchor::middle});
+                  {.size = 20 * unit, .color = style.colors.soft_ink, .at = anchor::middle});
     }
-    draw_text(paper, vec2(36, 52) * unit, style.title, {.size = 28 * unit, .weight = 0.1});
+    draw_text(paper, vec2(36, 52) * unit, style.title, {.size = 28 * unit, .weight = 0.1, .color = style.colors.ink});
     return paper.resolve();
 }
 

@@ -21,12 +21,12 @@ namespace taut::io::impl
 class svg_writer
 {
 public:
-    svg_writer(int width, int height)
+    svg_writer(int width, int height, rgb ground = {255, 255, 255})
     {
         const std::string w = std::to_string(width), h = std::to_string(height);
         text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " +
                 w + " " + h + "\" font-family=\"Helvetica, Arial, sans-serif\">\n";
-        rectangle({0, 0}, vec2(width, height), rgb{255, 255, 255});
+        rectangle({0, 0}, vec2(width, height), ground);
     }
 
     void raw(std::string_view s) { text_ += s; }

@@ -40,6 +40,8 @@ struct volume_style
     int height = 760; ///< pixels
     int samples = 3;  ///< antialiasing: samples^2 colours a pixel, [1, 8]
 
+    palette colors = wished_palette();
+
     orientation stance{{0, 0, 1}, {0, -1, 0}}; ///< up and front of the model
     double turn = 30, rise = 20;               ///< degrees to the side of the front, and from above
 
@@ -167,7 +169,7 @@ inline image volume_picture(const std::vector<volume_view>& views, const volume_
     if (!std::isfinite(wanted)) wanted = style.width; // nothing to draw
     const int width = static_cast<int>(std::min(wanted + 2 * margin, double(style.width)));
     const int n = static_cast<int>(views.size()), legend = static_cast<int>(186 * unit);
-    canvas paper(n * width + legend, style.height, style.samples, {255, 255, 255});
+    canvas paper(n * width + legend, style.height, style.samples, style.colors.ground);
     const vec2 room = vec2(width - 2 * margin, tall) * double(style.samples);
     const double fit = std::min(room.x / (high.x - low.x), room.y / (high.y - low.y));
     for (int k = 0; k < n; ++k)
@@ -183,14 +185,15 @@ inline image volume_picture(const std::vector<volume_view>& views, const volume_
                       std::max(1.0, 0.9 * unit * style.samples));
         }
         draw_text(paper, {left + margin, 44 * unit}, view.title,
-                  {.size = 24 * unit, .weight = 0.1, .color = impl::ink});
-        draw_text(paper, {left + margin, 72 * unit}, view.note, {.size = 15 * unit, .color = impl::soft_ink});
+                  {.size = 24 * unit, .weight = 0.1, .color = style.colors.ink});
+        draw_text(paper, {left + margin, 72 * unit}, view.note, {.size = 15 * unit, .color = style.colors.soft_ink});
     }
 
     // The legend takes its place from the frame of a layout as large as the sheet.
     layout_style sheet;
     sheet.width = paper.width();
     sheet.height = style.height;
+    sheet.colors = style.colors;
     sheet.scale = style.scale;
     sheet.formula = style.formula;
     layout_frame frame({}, sheet);
@@ -205,7 +208,7 @@ inline image volume_picture(const std::vector<volume_view>& views, const volume_
     {
         const double y = frame.bar_high.y + (unknown ? 68 : 40) * unit;
         paper.fill_rectangle({frame.bar_low.x, y - 15 * unit}, {frame.bar_high.x, y + 3 * unit}, magenta);
-        draw_text(paper, {frame.bar_high.x + 14 * unit, y}, "inverted", {.size = 17 * unit, .color = impl::ink});
+        draw_text(paper, {frame.bar_high.x + 14 * unit, y}, "inverted", {.size = 17 * unit, .color = style.colors.ink});
     }
     return paper.resolve();
 }
