@@ -6,7 +6,7 @@ import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "view"))
-from browser import Browser, names  # noqa: E402
+from browser import Browser, legible, names  # noqa: E402
 
 chromium = shutil.which("chromium") or shutil.which("chromium-browser")
 if not chromium:
@@ -161,6 +161,7 @@ def visit(dark):
         b.wait("report.selected === -1")
         texture(b, dark)
         names(b)
+        legible(b)
 
         # The histogram is of all area, and a bar shows its faces.
         parts = b.evaluate("report.data.histogram.parts")

@@ -145,3 +145,28 @@ def names(b):
         if focusable and value("role") not in ("RootWebArea", "row") and not value("name"):
             nameless.append(node)
     assert not nameless, nameless[:3]
+
+
+def legible(b, least=4.5):
+    """Words stand out from their ground as WCAG 2.1 (1.4.3) asks; controls that are off need not."""
+    dim = b.evaluate("""(() => {
+      const channels = (c) => (c.match(/[0-9.]+/g) || []).map(Number);
+      const light = (c) => [0.2126, 0.7152, 0.0722].reduce((sum, w, i) => {
+        const x = c[i] / 255;
+        return sum + w * (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
+      }, 0);
+      const ground = (e) => {
+        for (; e; e = e.parentElement) {
+          const c = channels(getComputedStyle(e).backgroundColor);
+          if (c.length === 3 || c[3] > 0.5) return c;
+        }
+        return [255, 255, 255];
+      };
+      return [...document.body.querySelectorAll('button, label, span, p, h1, h2, th, td, a, output')]
+        .filter((e) => !e.closest(':disabled') && e.checkVisibility() && e.innerText && e.innerText.trim())
+        .map((e) => {
+          const pair = [light(channels(getComputedStyle(e).color)), light(ground(e))].sort((p, q) => q - p);
+          return [(pair[0] + 0.05) / (pair[1] + 0.05), e.outerHTML.slice(0, 120)];
+        });
+    })()""")
+    assert dim and min(dim)[0] >= least, min(dim)

@@ -5,7 +5,7 @@ import shutil
 import sys
 import time
 
-from browser import Browser, names
+from browser import Browser, legible, names
 from client import Program
 from program import dome
 
@@ -70,6 +70,7 @@ def visit(dark):
         click(b, "texture")
         b.wait("taut.panes().every((p) => p.material.uniforms.textured.value === 0)")
         names(b)
+        legible(b)
 
         # Two pins: one is put, one is dragged.
         held, at = pick(b, 0.3, 0.5)
