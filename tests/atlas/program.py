@@ -501,8 +501,8 @@ def stops():
         judge("rough.out.obj", points, faces, samples=128)
 
     # Rougher than its triangles are large: no two of them are seen from one side. There are few charts all the same.
-    points, faces = ball(40)
-    points = [[c + rng.gauss(0, 0.06) for c in p] for p in points]
+    points, faces = ball(24)
+    points = [[c + rng.gauss(0, 0.1) for c in p] for p in points]
     write("spiky.obj", points, faces)
     done = subprocess.run([TAUT, "atlas", "spiky.obj", "-o", "spiky.out.obj", "--time-limit", "0.5", "--stats", "s.json"],
                           capture_output=True, text=True, check=False)
