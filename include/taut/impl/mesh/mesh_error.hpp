@@ -68,6 +68,7 @@ class mesh_error : public impl::mesh_faults, public impl::fault_error<impl::mesh
 public:
     using fault_error::fault_error;
 
+    // NOLINTNEXTLINE(bugprone-throw-keyword-missing): a base, for clang-tidy 14
     explicit mesh_error(impl::mesh_finding found) : fault_error(found.fault, std::move(found.ids), found.message) {}
 };
 

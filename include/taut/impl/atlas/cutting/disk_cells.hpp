@@ -149,7 +149,7 @@ private:
     }
 
     /// Adds the cells of a piece, whose map this is.
-    void add_cells(const piece& p, piece_map made, idx size, std::vector<disk_cell>& cells) const
+    void add_cells(const piece& p, const piece_map& made, idx size, std::vector<disk_cell>& cells) const
     {
         const auto n = static_cast<idx>(p.triangles.size());
         if (made.energy < good || (made.energy < infinite && n <= (made.energy < bad ? few : fewest)))
@@ -173,7 +173,7 @@ private:
             add_cell(p, made, cells);
             return;
         }
-        for (std::size_t k = 0; k < smaller.size(); ++k) add_cells(smaller[k], std::move(maps[k]), size, cells);
+        for (std::size_t k = 0; k < smaller.size(); ++k) add_cells(smaller[k], maps[k], size, cells);
     }
 
     static void add_cell(const piece& p, const piece_map& made, std::vector<disk_cell>& cells)

@@ -88,7 +88,7 @@ inline std::size_t flat_charts::lay_cells(laid_triangles& laid, std::span<const 
 
 inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char> wanted)
 {
-    constexpr double part = 0.1, longest = 0.5; // seconds
+    constexpr double part = 0.1, longest = 0.5; // seconds; complete atlases are the same on any machine
     constexpr std::size_t many = 50'000;        // triangles, too many to part in that time
     std::vector<idx> triangles, number(mesh_.points().size(), -1);
     for (std::size_t c = 0; c < wanted.size(); ++c)
@@ -102,8 +102,7 @@ inline void flat_charts::relax_cells(laid_triangles& laid, std::span<const char>
     params.initial = start;
     params.max_iterations = std::min(params.max_iterations, 25);
     params.tolerance = std::max(params.tolerance, 1e-3);
-    if (!report_.complete) // else the result is the same on any machine
-        params.limits.time_limit = budget::seconds(std::min(longest, part * budget_.total()));
+    if (!report_.complete) params.limits.time_limit = budget::seconds(std::min(longest, part * budget_.total()));
     const auto maps = flatten_charts(queue_, own.charts, params);
     const auto crossing = crossing_charts(own.charts, maps.uv);
     const auto take = [&](std::size_t k, laid_triangles& to)
