@@ -31,7 +31,7 @@ struct bits
 
 bits measured(MPI_Comm comm, const mesh<tetrahedron>& m, const dealing& how = {})
 {
-    dist::session<tetrahedron> s(comm, dealt(comm, m, how), {});
+    dist::session<tetrahedron> s(comm, dealt(comm, m, how), {.queue = common_queue()});
     auto& body = s.body();
     auto& f = body.objective();
     const auto& p = body.mesh_part();
@@ -94,11 +94,12 @@ TEST_CASE("dist bits: they depend neither on who has which cells nor on gaps in 
     const auto blocks = measured(MPI_COMM_WORLD, m), in_turn = measured(MPI_COMM_WORLD, m, {.in_turn = true});
     CHECK(blocks == in_turn);
     // Ids decide between vertices at one place of the curve alone, so their order is what counts.
-    const auto gaps =
-        dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m, {.stride = 1000003, .first = 7}),
-                                  {.constraints = ends(MPI_COMM_WORLD, m, stretched, {.stride = 1000003, .first = 7})});
-    const auto plain = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m),
-                                                 {.constraints = ends(MPI_COMM_WORLD, m, stretched)});
+    const auto gaps = dist::deform<tetrahedron>(
+        MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m, {.stride = 1000003, .first = 7}),
+        {.constraints = ends(MPI_COMM_WORLD, m, stretched, {.stride = 1000003, .first = 7}), .queue = common_queue()});
+    const auto plain =
+        dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m),
+                                  {.constraints = ends(MPI_COMM_WORLD, m, stretched), .queue = common_queue()});
     CHECK(gaps.report.energy == plain.report.energy);
     CHECK(gaps.x == plain.x);
 }
@@ -106,7 +107,7 @@ TEST_CASE("dist bits: they depend neither on who has which cells nor on gaps in 
 TEST_CASE("dist bits: a value is that of one process with the same energy and weights")
 {
     const auto m = bar(2);
-    dist::session<tetrahedron> s(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {});
+    dist::session<tetrahedron> s(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.queue = common_queue()});
     auto x = s.body().current();
     for (std::size_t v = 0; v < s.body().mesh_part().size(); ++v) x[3 * v + 2] *= 1.25;
     const double value = s.body().objective().value(x);
@@ -170,7 +171,7 @@ TEST_CASE("dist communicator: what is exchanged arrives in order; sums are the s
 TEST_CASE("dist deform: a mesh gathered on process 0 gets the shape that one process finds")
 {
     const auto m = bar(2);
-    dist::deform_params<tetrahedron> how{.constraints = ends(MPI_COMM_WORLD, m, stretched)};
+    dist::deform_params<tetrahedron> how{.constraints = ends(MPI_COMM_WORLD, m, stretched), .queue = common_queue()};
     const auto p = dealt(MPI_COMM_WORLD, m);
     dist::session<tetrahedron> s(MPI_COMM_WORLD, p, how);
     auto& body = s.body();
@@ -181,7 +182,7 @@ TEST_CASE("dist deform: a mesh gathered on process 0 gets the shape that one pro
     const auto found =
         dist::impl::gathered_solve<tetrahedron>::run(body.mesh_part(), held, lengths, how, body.current(), {});
     REQUIRE(found.has_value());
-    queue q;
+    queue& q = common_queue();
     const auto alone = deform(q, m, deform_params<tetrahedron>{.constraints = serial_ends(m, stretched)});
     for (std::size_t v = 0; v < body.mesh_part().own; ++v)
         for (int k = 0; k < 3; ++k)

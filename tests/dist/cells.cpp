@@ -55,14 +55,14 @@ TEST_CASE("dist cells: hexahedra and wedges find the energy of one process, to t
     const bool first = rank_of() == 0;
     const auto part = dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
     const auto& m = parts.simplices;
-    queue q;
+    queue& q = common_queue();
     deform_params<tetrahedron> serial{.constraints = serial_ends(m, twisted(1.0)), .precision = precision::fp64};
     serial.owners = parts.cells;
     serial.data.weights = parts.weights;
     serial.solve.stopping.gradient_tolerance = 1e-8;
     const auto one = deform(q, m, serial);
     REQUIRE(one.report.converged);
-    dist::deform_params<tetrahedron> how{.constraints = ends(MPI_COMM_WORLD, m, twisted(1.0))};
+    dist::deform_params<tetrahedron> how{.constraints = ends(MPI_COMM_WORLD, m, twisted(1.0)), .queue = common_queue()};
     how.solve.stopping.gradient_tolerance = 1e-8;
     const auto found = dist::deform(MPI_COMM_WORLD, part, how);
     CHECK(found.report.converged);
@@ -73,7 +73,7 @@ TEST_CASE("dist cells: hexahedra and wedges find the energy of one process, to t
     smooth_params<tetrahedron> by_one{.targets = parts.regular, .owners = parts.cells, .precision = precision::fp64};
     by_one.solve.stopping.gradient_tolerance = 1e-8;
     const auto smoothed = smooth(q, m, by_one);
-    dist::smooth_params by_all;
+    dist::smooth_params by_all{.queue = common_queue()};
     by_all.solve.stopping.gradient_tolerance = 1e-8;
     const auto better = dist::smooth(MPI_COMM_WORLD, part, by_all);
     CHECK(better.report.converged);
@@ -94,7 +94,8 @@ TEST_CASE("dist cells: energies have the same bits on any number of processes")
             const bool first = rank_of(some.get()) == 0;
             const auto part =
                 dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
-            dist::deform_params<tetrahedron> how{.constraints = ends(some.get(), parts.simplices, twisted(0.3))};
+            dist::deform_params<tetrahedron> how{.constraints = ends(some.get(), parts.simplices, twisted(0.3)),
+                                                 .queue = common_queue()};
             how.solve.stopping.max_iterations = 0;
             dist::session<tetrahedron> s(some.get(), part, how);
             auto x = s.body().current();

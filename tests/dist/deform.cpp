@@ -25,7 +25,7 @@ template <class Where>
 session_result<tetrahedron> serial(const mesh<tetrahedron>& m, const Where& where,
                                    const any_energy& e = energy::isometric{})
 {
-    queue q;
+    queue& q = common_queue();
     return deform(
         q, m,
         deform_params<tetrahedron>{.energy = e, .constraints = serial_ends(m, where), .precision = precision::fp64});
@@ -36,6 +36,7 @@ dist::result<tetrahedron> over_all(const mesh<tetrahedron>& m, const Where& wher
                                    dist::deform_params<tetrahedron> how = {})
 {
     how.constraints = ends(MPI_COMM_WORLD, m, where);
+    how.queue = common_queue();
     return dist::deform(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), how);
 }
 
@@ -106,7 +107,8 @@ TEST_CASE("dist deform: where there is no guess, bodies turn in parts")
                 c.pin(static_cast<std::int64_t>(v), 2, m.points()[v].z);
                 break;
             }
-    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
+    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m),
+                                                       {.constraints = c, .queue = common_queue()});
     CHECK(report.converged);
     CHECK(report.steps > 5);
     CHECK(at_their_places(m, x, where));
@@ -163,9 +165,10 @@ TEST_CASE("dist deform: springs pull, and single coordinates are fixed")
         if (p.z == 4) c.spring(v, p + vec3(0.5, 0, 0.5), 0.1);
         if (p.z == 2) c.pin(v, 1, p.y);
     }
-    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
+    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m),
+                                                       {.constraints = c, .queue = common_queue()});
     CHECK(report.converged);
-    queue q;
+    queue& q = common_queue();
     const auto alone = deform(q, m, deform_params<tetrahedron>{.constraints = one, .precision = precision::fp64});
     CHECK(report.energy == doctest::Approx(alone.report.energy).epsilon(1e-8));
     const auto p = dealt(MPI_COMM_WORLD, m);
@@ -188,7 +191,8 @@ TEST_CASE("dist deform: more processes than work")
     if (rank_of() == 0)
         for (int v = 0; v < 3; ++v) c.pin(v, m.points()[static_cast<std::size_t>(v)]);
     if (rank_of() == 0) c.pin(3, 0, 0.5);
-    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
+    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m),
+                                                       {.constraints = c, .queue = common_queue()});
     CHECK(report.outcome == outcome::valid);
     CHECK(report.pins_held);
     CHECK(report.unknowns == 1);
@@ -200,7 +204,8 @@ TEST_CASE("dist deform: everything pinned, and nothing")
     dist::constraints<tetrahedron> all;
     for (std::size_t v = 0; v < m.points().size(); ++v) all.pin(static_cast<std::int64_t>(v), 1.5 * m.points()[v]);
     // Every process gives the same pins.
-    const auto pinned = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = all});
+    const auto pinned = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m),
+                                                  {.constraints = all, .queue = common_queue()});
     CHECK(pinned.report.outcome == outcome::valid);
     CHECK(pinned.report.pins_held);
     CHECK(pinned.report.unknowns == 0);
@@ -237,7 +242,8 @@ TEST_CASE("dist deform: meshes of any size and place")
                 if (m.points()[v].z == 0) c.pin(static_cast<std::int64_t>(v), points[v]);
                 if (m.points()[v].z == 4) c.pin(static_cast<std::int64_t>(v), points[v] + scale * vec3(0, 0, 2));
             }
-        const auto r = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, other), {.constraints = c});
+        const auto r = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, other),
+                                                 {.constraints = c, .queue = common_queue()});
         CHECK(r.report.converged);
         CHECK(r.report.energy == doctest::Approx(energy).epsilon(1e-8));
     }
@@ -288,7 +294,8 @@ TEST_CASE("dist deform: elements with all vertices pinned and inverted are a pro
     if (rank_of() == 0)
         for (const idx v : m.cells().back())
             c.pin(v, m.points()[static_cast<std::size_t>(v)] * vec3(-1, 1, 1)); // mirrored
-    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), {.constraints = c});
+    const auto [x, report] = dist::deform<tetrahedron>(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m),
+                                                       {.constraints = c, .queue = common_queue()});
     CHECK(report.outcome == outcome::infeasible);
     CHECK(report.ids == std::vector<std::int64_t>{m.cell_count() - 1});
     CHECK(report.reason.find("all vertices pinned") != std::string::npos);

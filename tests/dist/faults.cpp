@@ -63,8 +63,9 @@ void expect(const F& f, const std::string& word, int failing = last_rank())
     if constexpr (!std::is_same_v<Error, std::bad_alloc>) CHECK_MESSAGE(c.what.find(word) != std::string::npos, c.what);
 }
 
-void deform(const piece& p, const dist::deform_params<tetrahedron>& how = {})
+void deform(const piece& p, dist::deform_params<tetrahedron> how = {})
 {
+    how.queue = common_queue();
     dist::deform<tetrahedron>(MPI_COMM_WORLD, p, how);
 }
 

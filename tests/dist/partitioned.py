@@ -71,14 +71,53 @@ def case_pieces():
     run("smooth", "in3.pvtu", "-o", "smooth.pvtu", "--stats", "s.json")
     assert stats("s.json")["quality"]["mean_ratio"]["mean"] > stats("s.json")["quality_start"]["mean_ratio"]["mean"]
     # A checkpoint is in pieces, too; it is left out of the way once the result is there.
-    run("deform", "in3.pvtu", "--fix", "region:0", "-o", "again.pvtu", "--checkpoint", "same.pvtu", "--stats", "s.json")
+    task = ("deform", "in3.pvtu", "--fix", "region:0", "-o", "again.pvtu", "--stats", "s.json", "--checkpoint")
+    run(*task, "same.pvtu")
     assert not os.path.exists("same.pvtu") and not os.path.exists("same"), os.listdir(".")
+    # Its pieces are removed, not those of the input, which it may name, too.
+    shutil.copy("in3.pvtu", "copy.pvtu")
+    run(*task, "copy.pvtu")
+    assert not os.path.exists("copy.pvtu") and len(os.listdir("in3")) == 3
     # What is wrong, one message says, and nothing is left.
     fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "in3.pvtu", code=2, word="in3.pvtu")
     fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "out.vtu", code=2, word=".pvtu")
     os.remove("in3/piece_2.vtu")
     fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "x.pvtu", code=3, word="piece_2.vtu")
     assert not os.path.exists("x")
+
+
+def case_pieces_checkpoint():
+    """Whenever a run is killed, its checkpoint has pieces of one time."""
+    b = bar(6)
+    pieces = pvtu("in.pvtu", b.points, b.cells, 5)
+    b.pins("pins.csv", lambda p: (p[0], p[1], 0.4 * p[2]))  # it buckles, which takes many steps
+    task = ("deform", "in.pvtu", "--pins", "pins.csv", "-o", "out.pvtu", "--stats", "s.json", "--checkpoint",
+            "so-far.pvtu", "--checkpoint-interval", "1")
+    if not killed_at(task, "so-far.pvtu"):  # a fast machine was done before the first checkpoint
+        for name in ("out", "out.pvtu"):
+            os.rename(name, name.replace("out", "so-far.taut-0"))
+        with open("so-far.taut-0.pvtu") as f, open("so-far.pvtu", "w") as g:
+            g.write(f.read().replace("out/", "so-far.taut-0/"))
+    with open("so-far.pvtu") as f:
+        named = f.read().split('Source="')[1].split("/")[0]
+    assert named in ("so-far.taut-0", "so-far.taut-1"), named
+    found = {}
+    for k, own in enumerate(pieces):
+        for v, x in zip(own, points_of_vtu(f"{named}/piece_{k}.vtu"), strict=True):
+            assert found.setdefault(v, x) == x, (v, x)
+    assert stats_of_check("so-far.pvtu")["valid"]
+    # One that was killed while it wrote the next has left part of that, which is not read; the rest is removed.
+    other = "so-far.taut-1" if named.endswith("0") else "so-far.taut-0"
+    shutil.rmtree(other, ignore_errors=True)
+    shutil.copytree("in", other)
+    os.remove(other + "/piece_3.vtu")
+    assert stats_of_check("so-far.pvtu")["valid"]
+    run(*task, "--time-limit", "0.01", code=8, processes=3)
+    for k in range(5):  # no time for more: the result is the checkpoint
+        assert points_of_vtu(f"out/piece_{k}.vtu") == points_of_vtu(f"{named}/piece_{k}.vtu")
+    run(*task, processes=3)
+    assert stats("s.json")["converged"] and stats("s.json")["pins_held"]
+    assert sorted(os.listdir(".")) == ["in", "in.pvtu", "out", "out.pvtu", "pins.csv", "s.json"], os.listdir(".")
 
 
 def case_foam():
@@ -104,19 +143,26 @@ def case_foam():
     near(stats("s.json")["energy"], energy, 9)
     assert stats_of_check("group")["elements"] == len(b.cells)
     # So are zones, as text and in binary, of pieces that have part of them or none.
-    for name, binary in (("text", False), ("bytes", True)):
-        for zone, group in (("cell", "cellZone:low"), ("face", "faceZone:low"), ("point", "pointZone:low")):
-            for k in range(2):
-                foam_zones(f"{name}/processor{k}/constant/polyMesh", zone, {"low": [0, 2], "none": []}, binary)
-            run("deform", name, "--fix", group, "--fix", zone + "Zone:none", "-o", f"{name}-{zone}", "--stats", "s.json")
-            most = {"cell": 8, "face": 6, "point": 2}[zone]
-            assert most < stats("s.json")["pins"] <= 2 * most or zone == "point", stats("s.json")["pins"]
-            assert 2 <= stats("s.json")["pins"] <= 2 * most, stats("s.json")["pins"]
+    most = {"cell": 8, "face": 6, "point": 2}
+    for name, binary, together in (("text", False, [list(most)]), ("bytes", True, [[zone] for zone in most])):
+        for zones in together:
+            fixed = []
+            for zone in zones:
+                fixed += ["--fix", f"{zone}Zone:low", "--fix", zone + "Zone:none"]
+                for k in range(2):
+                    foam_zones(f"{name}/processor{k}/constant/polyMesh", zone, {"low": [0, 2], "none": []}, binary)
+            run("deform", name, *fixed, "-o", f"{name}-{zones[-1]}", "--stats", "s.json")
+            assert max(most[z] for z in zones) < stats("s.json")["pins"] or zones == ["point"], stats("s.json")["pins"]
+            assert 2 <= stats("s.json")["pins"] <= 2 * sum(most[z] for z in zones), stats("s.json")["pins"]
         for file in os.listdir(f"{name}/processor1/constant/polyMesh"):
             here, there = (f"{c}/processor1/constant/polyMesh/{file}" for c in (name, name + "-point"))
             assert file == "points" or filecmp.cmp(here, there, shallow=False), file
     foam_zones("many/processor3/constant/polyMesh", "cell", {"far": [10**6]}, True)
     fails("deform", "many", "--fix", "floor", "-o", "x", code=3, word="a zone names item 1000000")
+    # The output is a new folder, with a slash behind its name or without.
+    run("deform", "bytes", "--fix", "floor", "-o", "slash/")
+    assert sorted(os.listdir("slash")) == ["processor0", "processor1"]
+    fails("deform", "bytes", "--fix", "floor", "-o", "slash", code=2, word="is there already")
     # One that is not decomposed; one without numbers of points, which are joined where they are.
     foam("one/constant/polyMesh", b.points, b.cells, lambda around: patch([b.points[v] for v in around]))
     run("deform", "one", "--pins", "pins.csv", "-o", "one-moved", "--stats", "s.json", processes=3)

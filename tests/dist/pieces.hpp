@@ -14,11 +14,20 @@
 #include <support/meshes.hpp>
 #include <taut/constraints.hpp>
 #include <taut/dist.hpp>
+#include <taut/queue.hpp>
 
 namespace taut::test
 {
 
 using piece = dist::mesh_piece<tetrahedron>;
+
+/// A queue that tests share, with the kernels that it has built: most of them need no other. Never closed, as drivers
+/// may be gone when a program ends.
+inline queue& common_queue()
+{
+    static auto* const q = new queue();
+    return *q;
+}
 
 /// A communicator of the first `size` processes; MPI_COMM_NULL for the others.
 class first_processes

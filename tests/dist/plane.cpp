@@ -50,11 +50,11 @@ TEST_CASE("dist plane: a strip whose end is turned, as one process has it")
     }
     const dist::impl::communicator all(MPI_COMM_WORLD);
     const auto mine = dist::impl::dealt<triangle>(all, rank_of() == 0 ? &m : nullptr);
-    const auto [x, report] = dist::deform<triangle>(MPI_COMM_WORLD, mine, {.constraints = c});
+    const auto [x, report] = dist::deform<triangle>(MPI_COMM_WORLD, mine, {.constraints = c, .queue = common_queue()});
     CHECK(report.converged);
     CHECK(report.pins_held);
     CHECK(report.flips.elements == m.cell_count());
-    queue q;
+    queue& q = common_queue();
     const auto alone = deform(q, m, deform_params<triangle>{.constraints = one, .precision = precision::fp64});
     CHECK(report.energy == doctest::Approx(alone.report.energy).epsilon(1e-9));
 }
@@ -71,7 +71,7 @@ TEST_CASE("dist plane: smoothing, and a certificate")
     const dist::impl::communicator all(MPI_COMM_WORLD);
     const auto mine = dist::impl::dealt<triangle>(all, rank_of() == 0 ? &m : nullptr);
     CHECK(dist::check(MPI_COMM_WORLD, mine));
-    const auto [x, report] = dist::smooth<triangle>(MPI_COMM_WORLD, mine, {});
+    const auto [x, report] = dist::smooth<triangle>(MPI_COMM_WORLD, mine, {.queue = common_queue()});
     CHECK(report.outcome == outcome::valid);
     CHECK(report.converged);
     for (std::size_t v = 0; v < x.size(); ++v)

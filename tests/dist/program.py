@@ -97,6 +97,14 @@ class bar:
             f.writelines("%d 4 2 1 1 %d %d %d %d\n" % (k + 1, *(v + 1 for v in t)) for k, t in enumerate(self.cells))
             f.write("$EndElements\n")
 
+    def tetgen(self, name):
+        with open(name + ".node", "w") as f:
+            f.write(f"{len(self.points)} 3 0 0\n")
+            f.writelines("%d %.17g %.17g %.17g\n" % (v, *p) for v, p in enumerate(self.points))
+        with open(name + ".ele", "w") as f:
+            f.write(f"{len(self.cells)} 4 0\n")
+            f.writelines("%d %d %d %d %d\n" % (k, *t) for k, t in enumerate(self.cells))
+
     def pins(self, path, where):
         with open(path, "w") as f:
             f.writelines("%d,%.17g,%.17g,%.17g\n" % (v, *self.points[v]) for v in self.start)
@@ -301,6 +309,14 @@ def case_checkpoint():
     again = stats("s.json")
     assert again["iterations"] <= 2, again["iterations"]
     near(again["energy"], straight["energy"], 9)
+    # Nothing stays of TetGen's checkpoints, which are several files.
+    few = bar(2)
+    few.pins("few.csv", stretched)
+    few.tetgen("few")
+    few.tetgen("few-so-far")
+    run("deform", "few.node", "--pins", "few.csv", "-o", "few-out.node", "--checkpoint", "few-so-far.node")
+    assert sorted(n for n in os.listdir(".") if n.startswith("few")) == ["few-out.ele", "few-out.node", "few.csv",
+                                                                         "few.ele", "few.node"], os.listdir(".")
     # Options that PETSc has no use for are named.
     _, err = run("deform", "bar.su2", "--pins", "pins.csv", "-o", "o.su2", "--petsc", "-nonsense 3 -pc_type gamg")
     assert "-nonsense" in err and "-pc_type" not in err, err
@@ -344,6 +360,7 @@ def case_faults():
     fails("deform", "bar.mesh", "--pins", "bad.csv", "-o", "x.mesh", code=3, word="99999")
     fails("deform", "bar.mesh", "-o", "nowhere/x.mesh", code=2, word="nowhere")
     fails("deform", "bar.mesh", "-o", "bar.mesh", code=2, word="overwrite")
+    fails("deform", "bar.mesh", "-o", "folder/", code=2, word="name a file")
     fails("deform", "bar.mesh", code=2, word="--output")
     fails("unwrap", "bar.mesh", code=2, word="--help")
     fails("deform", "bar.mesh", "-o", "x.mesh", "--refine", code=2, word="--refine")

@@ -14,7 +14,8 @@ TEST_CASE("dist session: steps in time, with the tables of the first call")
 {
     const auto m = bar(3);
     const auto p = dealt(MPI_COMM_WORLD, m);
-    dist::session<tetrahedron> s(MPI_COMM_WORLD, p, {.constraints = ends(MPI_COMM_WORLD, m, twisted(0.2))});
+    dist::session<tetrahedron> s(MPI_COMM_WORLD, p,
+                                 {.constraints = ends(MPI_COMM_WORLD, m, twisted(0.2)), .queue = common_queue()});
     const auto first = s.solve();
     CHECK(first.report.converged);
     const double planned = first.report.seconds.plan;
@@ -26,8 +27,8 @@ TEST_CASE("dist session: steps in time, with the tables of the first call")
         CHECK(next.report.seconds.plan == planned); // the same coordinates are fixed
         CHECK(next.report.energy > first.report.energy);
     }
-    const auto at_once =
-        dist::deform<tetrahedron>(MPI_COMM_WORLD, p, {.constraints = ends(MPI_COMM_WORLD, m, twisted(0.6))});
+    const auto at_once = dist::deform<tetrahedron>(
+        MPI_COMM_WORLD, p, {.constraints = ends(MPI_COMM_WORLD, m, twisted(0.6)), .queue = common_queue()});
     CHECK(s.solve().report.energy == doctest::Approx(at_once.report.energy).epsilon(1e-8));
 
     // Released, it goes back to rest.

@@ -17,13 +17,13 @@ TEST_CASE("dist smooth: as one process, with a boundary that slides")
 {
     const auto m = jittered_cube(4, 3);
     const auto p = dealt(MPI_COMM_WORLD, m);
-    const auto [x, report] = dist::smooth<tetrahedron>(MPI_COMM_WORLD, p, {});
+    const auto [x, report] = dist::smooth<tetrahedron>(MPI_COMM_WORLD, p, {.queue = common_queue()});
     CHECK(report.outcome == outcome::valid);
     CHECK(report.converged);
     for (std::size_t v = 0; v < x.size(); ++v)
         for (int k = 0; k < 3; ++k)
             if (p.points[v][k] == 0 || p.points[v][k] == 1) CHECK(x[v][k] == p.points[v][k]);
-    queue q;
+    queue& q = common_queue();
     const auto one = smooth(q, m, smooth_params<tetrahedron>{.precision = precision::fp64});
     CHECK(report.energy == doctest::Approx(one.report.energy).epsilon(1e-6));
 }
@@ -41,7 +41,7 @@ TEST_CASE("dist smooth: a tilted cube slides in planes that are no coordinate pl
     for (vec3& p : points) p = tilted(p);
     const mesh<tetrahedron> m(points, straight.cells());
     const auto p = dealt(MPI_COMM_WORLD, m);
-    dist::smooth_params how;
+    dist::smooth_params how{.queue = common_queue()};
     how.fixed = {21};
     const auto [x, report] = dist::smooth<tetrahedron>(MPI_COMM_WORLD, p, how);
     CHECK(report.outcome == outcome::valid);
@@ -61,7 +61,7 @@ TEST_CASE("dist smooth: a fixed boundary stays bit for bit; a fault of one proce
 {
     const auto m = jittered_cube(3, 7);
     const auto p = dealt(MPI_COMM_WORLD, m);
-    dist::smooth_params how{.boundary = smooth_boundary::fixed};
+    dist::smooth_params how{.boundary = smooth_boundary::fixed, .queue = common_queue()};
     const auto [x, report] = dist::smooth<tetrahedron>(MPI_COMM_WORLD, p, how);
     CHECK(report.converged);
     for (std::size_t v = 0; v < x.size(); ++v)
@@ -106,7 +106,7 @@ TEST_CASE("dist smooth: interfaces between regions, and lines where labelled fac
         file.labels[0].values.push_back(face.label);
     }
     REQUIRE(faces.size() == 2 * n * n);
-    queue q;
+    queue& q = common_queue();
     const auto one = smooth(q, m,
                             smooth_params<tetrahedron>{.kept = io::impl::kept_facets(file, true),
                                                        .precision = precision::fp64,
@@ -116,7 +116,7 @@ TEST_CASE("dist smooth: interfaces between regions, and lines where labelled fac
         const first_processes some(processes);
         if (!some) continue;
         const auto p = dealt(some.get(), m);
-        dist::smooth_params how;
+        dist::smooth_params how{.queue = common_queue()};
         how.solve.stopping.gradient_tolerance = 1e-8;
         for (const auto& c : p.cells)
             how.regions.push_back(1 + (*std::max_element(c.begin(), c.end()) >= slice * (2 * n + 1)));

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include <taut/dist.hpp>
-#include <taut/impl/dist_io/pvtu_volume.hpp>
 
 #include "mpi/case_folder.hpp"
+#include "mpi/piece_turns.hpp"
 #include "mpi/shape_source.hpp"
 #include "shared/failure.hpp"
 #include "shared/writing.hpp"
@@ -97,14 +97,16 @@ public:
             for (const auto& folder : {path, unfinished()}) std::filesystem::remove_all(folder, unknown);
             return;
         }
-        std::vector<std::filesystem::path> files;
-        if (path.extension() == ".pvtu") files = dist::impl::pieces_of(path);
-        files.push_back(path);
-        for (const auto& file : files) std::filesystem::remove(file, unknown);
-        if (files.size() > 1) std::filesystem::remove(files.front().parent_path(), unknown); // if nothing is left there
+        if (is_in_pieces()) return piece_turns(path).remove();
+        std::filesystem::remove(path, unknown);
+        if (io::impl::small_extension(options_.shape.input) == ".node") // TetGen's further files
+            for (const char* extension : {".node", ".ele", ".face"})
+                std::filesystem::remove(std::filesystem::path(path).replace_extension(extension), unknown);
     }
 
 private:
+    bool is_in_pieces() const { return io::impl::small_extension(options_.checkpoint) == ".pvtu"; }
+
     /// Whether it is a folder, as the input.
     bool is_case() const
     {
@@ -123,10 +125,9 @@ private:
                 (is_case() ? ": is a file, and the mesh is a folder; name another" : ": is a folder; name a file"));
     }
 
+    /// All pieces of what has the name are of one time.
     void write(const points& x) const
     {
-        if (!is_case()) return source_.write(options_.checkpoint, x);
-        const auto made = unfinished(); // all pieces of a folder are of one time
         const auto by_first = [&](const auto& body)
         {
             all_.together(
@@ -135,9 +136,24 @@ private:
                     if (all_.rank() == 0) writing(body);
                 });
         };
-        by_first([&] { remove_folder(made); }); // of a run that was killed
-        source_.write(made.string(), x);
-        by_first([&] { replace_folder(made, named()); });
+        if (is_case())
+        {
+            const auto made = unfinished();
+            by_first([&] { remove_folder(made); }); // of a run that was killed
+            source_.write(made.string(), x);
+            by_first([&] { replace_folder(made, named()); });
+        }
+        else if (is_in_pieces())
+        {
+            const piece_turns turns(options_.checkpoint);
+            std::string made;
+            by_first([&] { made = turns.next().string(); });
+            made = all_.shared(made);
+            source_.write(made, x);
+            by_first([&] { turns.replace(made); });
+        }
+        else
+            source_.write(options_.checkpoint, x);
     }
 
     std::filesystem::path named() const

@@ -54,6 +54,7 @@ void leave_out(CLI::App& app, std::initializer_list<const char*> names)
 void say(CLI::App& app, const std::string& mesh)
 {
     app.get_option("MESH")->description(mesh);
+    dynamic_cast<command_line&>(*app.get_parent()).files.at(app.get_option("--output")).may_be_folder = true;
     app.get_option("--output")
         ->description("Mesh to write, in the format of the input: the same file, or pieces, with other coordinates");
     app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"

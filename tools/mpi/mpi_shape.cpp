@@ -295,12 +295,32 @@ private:
     exit_code code_ = exit_code::valid, stopped_by_ = exit_code::interrupted;
 };
 
+/// The output is of the kind of the input: a new folder for a case of OpenFOAM, else a file. Throws usage_error.
+void require_kind(const shape_options& o)
+{
+    namespace fs = std::filesystem;
+    std::error_code unknown;
+    const fs::path path = o.output;
+    const bool there = fs::exists(path, unknown), folder = fs::is_directory(path, unknown);
+    if (fs::is_directory(o.input, unknown))
+    {
+        if (there) throw usage_error("-o " + o.output + ": is there already; name a folder that is not, or remove it");
+    }
+    else if (folder || !path.has_filename())
+        throw usage_error("-o " + o.output + ": is a folder, and the mesh is a file; name a file");
+}
+
 } // namespace
 
 exit_code run_shape(const dist::impl::communicator& all, const mpi_options& options, const char* place_of_report,
                     std::chrono::steady_clock::time_point launch)
 {
     run_base base(all, options, place_of_report, run_clock(launch));
+    all.together(
+        [&]
+        {
+            if (all.rank() == 0) require_kind(options.shape);
+        });
     base.tell("read");
     const double begin = base.clock.now();
     std::unique_ptr<shape_source<tetrahedron>> volume = ranged_source(all, options, base.report);

@@ -60,7 +60,7 @@ int main(int argc, char** argv)
     using namespace taut::test;
     MPI_Init(&argc, &argv);
     fault = argc > 1 ? argv[1] : "";
-    ::setenv("TAUT_MPI_PATIENCE", "2", 1);
+    ::setenv("TAUT_MPI_PATIENCE", "0.5", 1);
     if (const char* caches = std::getenv("POCL_CACHE_DIR"))
         ::setenv("POCL_CACHE_DIR", (std::string(caches) + "/process-" + std::to_string(rank_of())).c_str(), 1);
     const auto m = bar(3);

@@ -204,8 +204,8 @@ std::string failure_with(const std::string& file, const std::string& from, const
 
 TEST_CASE("dist damaged pieces of OpenFOAM")
 {
-    damage("case", foam_case(false), 150);
-    damage("case", foam_case(true), 150);
+    damage("case", foam_case(false), 70);
+    damage("case", foam_case(true), 70);
 }
 
 TEST_CASE("dist damaged pieces of VTK")
