@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """picture.py OUT.png: a monkey with a checkerboard, and its UV map, by Blender's Conformal and by taut's Unwrap, along
-the same seams; rendered by Cycles, with TAUT_THEME=dark on a dark ground. For Blender as a Python module, with the package
-taut on PYTHONPATH."""
+the same seams; rendered by Cycles, with TAUT_THEME=dark on a dark ground. For Blender as a Python module, with the
+package taut on PYTHONPATH."""
 
 import math
 import os
@@ -98,7 +98,8 @@ def light_and_camera():
 def darken(tree):
     """The light stays; the camera sees a dark world."""
     nodes, links = tree.nodes, tree.links
-    dark, mix, path = (nodes.new(kind) for kind in ("ShaderNodeBackground", "ShaderNodeMixShader", "ShaderNodeLightPath"))
+    kinds = ("ShaderNodeBackground", "ShaderNodeMixShader", "ShaderNodeLightPath")
+    dark, mix, path = (nodes.new(kind) for kind in kinds)
     dark.inputs["Color"].default_value = (0.008, 0.0097, 0.0137, 1)  # linear; (22, 25, 31) in sRGB
     links.new(path.outputs["Is Camera Ray"], mix.inputs["Fac"])
     links.new(nodes["Background"].outputs["Background"], mix.inputs[1])

@@ -38,29 +38,48 @@ def interrupts(rows):
     return lines
 
 
-def plot(path, rows, kind, x, y, labels):
+INK = {"light": "#000000", "dark": "#e2e6ee"}
+GROUND = {"light": "#ffffff", "dark": "#16191f"}
+COLORS = {"light": ["#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e377c2", "#7f7f7f", "#bcbd22", "#17becf"],
+          "dark": ["#4fa3e0", "#ff9d45", "#53c653", "#ff6b6b", "#b491e0", "#c48b7f", "#f29ddb", "#a8a8a8", "#d4d54a", "#45d3e6"]}
+
+
+def pictures(name, words):
+    """A plot of each theme, of which a reader sees one."""
+    return "".join(f"![{words}{', dark' * (theme == 'dark')}](../images/{name}-{theme}.svg#gh-{theme}-mode-only)\n" for theme in INK)
+
+
+def plots(images, name, *what):
+    for theme in INK:
+        plot(images / f"{name}-{theme}.svg", theme, *what)
+
+
+def plot(path, theme, rows, kind, x, y, labels):
     import matplotlib
 
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
 
     plt.rcParams.update({"svg.hashsalt": "taut", "font.size": 9})
+    plt.rcParams.update(dict.fromkeys(["text.color", "axes.labelcolor", "axes.edgecolor", "xtick.color", "ytick.color"], INK[theme]))
+    plt.rcParams.update(dict.fromkeys(["figure.facecolor", "axes.facecolor", "legend.facecolor"], GROUND[theme]))
     figure, axes = plt.subplots(figsize=(7, 4.2))
     good = [r for r in rows if r["kind"] == kind and "error" not in r and r[y] is not None and math.isfinite(r[y])]
     for n, peer in enumerate(dict.fromkeys(r["peer"] for r in good)):
         mine = [r for r in good if r["peer"] == peer]
         axes.plot([r[x] for r in mine], [r[y] for r in mine], "o" if peer.startswith("taut") else "x", label=peer,
-                  color=f"C{n % 10}")
+                  color=COLORS[theme][n % 10])
     axes.set(xscale="log", yscale="log", xlabel=labels[0], ylabel=labels[1])
     axes.grid(True, which="both", alpha=0.2)
     axes.legend(fontsize=7)
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
+    plt.close(figure)
 
 
 HEADS = {
-    "atlas": "## Atlases of closed surfaces\n\n![Seam length over processor seconds](../images/peers-seams.svg)\n\n",
-    "disk": "## Maps of disks\n\n![Distortion over processor seconds](../images/peers-distortion.svg)\n\n",
+    "atlas": "## Atlases of closed surfaces\n\n" + pictures("peers-seams", "Seam length over processor seconds") + "\n",
+    "disk": "## Maps of disks\n\n" + pictures("peers-distortion", "Distortion over processor seconds") + "\n",
     "volume": """## Volumes
 
 A bar of cubes of six tetrahedra each, whose ends are pinned, one of them turned by 90 and 150 degrees. *E*: the mean of |S|² |S⁻¹|² / 9, 1 for
@@ -114,8 +133,8 @@ def told(words):
 def write(path, rows, command, machine, cores):
     path = pathlib.Path(path)
     images = path.resolve().parents[1] / "images"
-    plot(images / "peers-seams.svg", rows, "atlas", "processor", "seam", ("processor seconds", "seam length / sqrt(area)"))
-    plot(images / "peers-distortion.svg", rows, "disk", "processor", "energy", ("processor seconds", "mean symmetric Dirichlet energy"))
+    plots(images, "peers-seams", rows, "atlas", "processor", "seam", ("processor seconds", "seam length / sqrt(area)"))
+    plots(images, "peers-distortion", rows, "disk", "processor", "energy", ("processor seconds", "mean symmetric Dirichlet energy"))
     versions = {r["peer"].split()[0]: r["version"] for r in rows if r.get("version")}
     text = f"""# Comparison with other packages
 

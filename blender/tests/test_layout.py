@@ -69,6 +69,8 @@ def wheel_of_build(folder):
     with zipfile.ZipFile(wheel, "w", zipfile.ZIP_STORED) as archive:
         for path in [*home.glob("*.py"), *home.glob("*.so"), *home.glob("compat/*.py")]:
             archive.write(path, f"taut/{path.relative_to(home)}")
+        for path in (home.parent / "taut.libs").glob("*"):  # of a wheel that scripts/wheel has made
+            archive.write(path, f"taut.libs/{path.name}")
         info = "taut-1.0.0.dist-info"
         archive.writestr(f"{info}/METADATA", "Metadata-Version: 2.1\nName: taut\nVersion: 1.0.0\n")
         tag = f"cp{version}-cp{version}-manylinux_2_17_x86_64"

@@ -24,7 +24,7 @@ void append(std::string& to, std::uint32_t x)
 
 std::string generate(dice& random)
 {
-    std::string m(1, static_cast<char>(random.between(1, 12)));
+    std::string m(1, static_cast<char>(random.between(1, 13)));
     append(m, 7);
     switch (m[0])
     {
@@ -53,7 +53,9 @@ std::string generate(dice& random)
         append(m, 1);
         break;
     case 10:
-        for (int k = 0; k < 28; ++k) m += static_cast<char>(random.one_in(2) ? 0 : random.between(0, 255));
+    case 12:
+        for (int k = 0; k < (m[0] == 10 ? 28 : 24); ++k)
+            m += static_cast<char>(random.one_in(2) ? 0 : random.between(0, 255));
         break;
     default:
         break;
@@ -87,6 +89,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                     fuzz::require(4 * w.vertices.size() < size, "as many as there are bytes for");
                 else if constexpr (std::is_same_v<kind, view::ask::pose>)
                     fuzz::require(std::isfinite(w.turn + w.scale * 0 + w.softness * 0), "a pose is one");
+                else if constexpr (std::is_same_v<kind, view::ask::move>)
+                    fuzz::require(std::isfinite(w.by[0] + w.by[1] * 0 + w.by[2] * 0), "a way is one");
                 else if constexpr (std::is_same_v<kind, view::ask::align>)
                     fuzz::require(w.axis < 3, "an axis");
             },

@@ -120,7 +120,7 @@ class Browser:
         self.touch("touchEnd")
 
     def key(self, key, modifiers=0):
-        code = {"z": 90, " ": 32}.get(key, 0)
+        code = {"z": 90, " ": 32, "Tab": 9}.get(key, 0)
         for kind in ("keyDown", "keyUp"):
             self.call("Input.dispatchKeyEvent", type=kind, key=key, modifiers=modifiers, windowsVirtualKeyCode=code)
 
@@ -145,6 +145,40 @@ def names(b):
         if focusable and value("role") not in ("RootWebArea", "row") and not value("name"):
             nameless.append(node)
     assert not nameless, nameless[:3]
+
+
+def focused(b):
+    """What the keyboard's focus is on: the id of an element, else its text."""
+    return b.evaluate("document.activeElement.id || document.activeElement.innerText")
+
+
+def toolbar(b, bar="bar"):
+    """One stop of the Tab key, from whose buttons arrow keys, Home and End lead to all that can be pressed; which these are."""
+    stops = b.evaluate(f"[...document.querySelectorAll('#{bar} button')].filter((x) => x.tabIndex === 0).length")
+    assert stops == 1, f"{stops} buttons are stops of Tab"
+    usable = b.evaluate(f"""[...document.querySelectorAll('#{bar} button')].filter((x) => !x.disabled && x.checkVisibility())
+                             .map((x) => x.id || x.innerText)""")
+    b.evaluate("[...document.querySelectorAll('canvas')].find((x) => x.checkVisibility()).focus()")  # what comes after it
+    b.key("Tab", modifiers=8)  # Shift: back
+    assert focused(b) in usable, focused(b)
+    b.key("Tab")
+    assert focused(b) not in usable, focused(b)
+    b.key("Tab", modifiers=8)
+    b.key("Home")
+    met = [focused(b)]
+    for _ in usable[1:]:
+        b.key("ArrowRight")
+        met.append(focused(b))
+    assert met == usable, (met, usable)
+    b.key("ArrowRight")
+    assert focused(b) == usable[0]
+    for key, there in (("ArrowLeft", usable[-1]), ("ArrowLeft", usable[-2]), ("End", usable[-1]), ("Home", usable[0])):
+        b.key(key)
+        assert focused(b) == there, (key, focused(b))
+    b.key("Tab")
+    b.key("Tab", modifiers=8)
+    assert focused(b) == usable[0], "Tab does not come back to where it left"
+    return usable
 
 
 def legible(b, least=4.5):

@@ -152,6 +152,10 @@ def pose(gesture, onto=-1, turn=0.0, scale=1.0, softness=0.0):
     return struct.pack("<BIi3d", 10, gesture, onto, turn, scale, softness)
 
 
+def move(gesture, by):
+    return struct.pack("<BI3d", 12, gesture, *by)
+
+
 def keep(gesture):
     return struct.pack("<BI", 11, gesture)
 

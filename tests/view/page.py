@@ -5,7 +5,7 @@ import shutil
 import sys
 import time
 
-from browser import Browser, legible, names
+from browser import Browser, focused, legible, names, toolbar
 from client import Program
 from program import dome
 
@@ -159,6 +159,62 @@ def visit(dark):
         b.wait("document.getElementById('note')?.textContent.includes('not connected')")
 
 
+def keyboard():
+    """All without a pointer: tools, a pin that is moved, undo until there is nothing to undo, and the views."""
+    with Program(program, f"{folder}/dome.obj") as p, Browser(chromium) as b:
+        b.open(p.url)
+        b.wait("window.taut && taut.state && taut.frames.length > 0")
+        at_rest(b)
+        assert toolbar(b)[:3] == ["Drag", "Region", "Line"]
+        b.key("ArrowRight")
+        assert b.evaluate("taut.tool") == "drag"  # arrow keys alone choose nothing
+        b.key(" ")
+        b.wait("taut.tool === 'region'")
+        b.key("d")
+        v, _ = pick(b, 0.5, 0.5)
+        b.evaluate(f"taut.pin({v}, taut.position({v}))")
+        b.wait("taut.state.pins.size === 1")
+        at_rest(b)
+        names(b)
+
+        # In the bar arrow keys leave the pin alone; on the map they move it.
+        x = b.evaluate(f"taut.state.pins.get({v}).x")
+        b.key("ArrowUp")
+        b.key("ArrowLeft")
+        assert focused(b) == "Drag"
+        b.evaluate("document.getElementById('map').focus()")
+        b.key("ArrowUp")
+        b.wait(f"taut.state.pins.get({v}).x[1] > {x[1]}")
+        at_rest(b)
+        assert b.evaluate(f"taut.state.pins.get({v}).x[0]") == x[0]
+
+        # A button that is switched off hands the focus on.
+        b.evaluate("document.getElementById('undo').focus()")
+        while b.evaluate("taut.state.canUndo"):
+            b.evaluate("taut.frames.length = 0")
+            b.key(" ")
+            at_rest(b)
+        b.wait("document.getElementById('undo').disabled")
+        assert focused(b) == "redo", focused(b)
+        toolbar(b)
+
+        # A pointer leaves the focus where it is.
+        b.evaluate("document.getElementById('map').focus()")
+        x, y = b.evaluate("(() => { const r = document.getElementById('relax').getBoundingClientRect(); return [r.x + 5, r.y + 5]; })()")
+        b.drag((x, y), (x, y), steps=1)
+        assert focused(b) == "map", focused(b)
+
+        at = "[taut.left, taut.right].map((p) => [p.camera.zoom, ...p.camera.position.toArray()])"
+        model, flat = b.evaluate(at)
+        b.key(".")
+        turned, still = b.evaluate(at)
+        assert turned != model and still == flat, (model, turned, flat, still)
+        b.key("PageUp")
+        near, zoomed = b.evaluate(at)
+        assert near == turned and zoomed[0] > flat[0]  # the one that has the focus
+        assert not b.errors(), b.errors()
+
+
 def fingers():
     """One moves a vertex; two zoom and turn the view, also where the first one has hit a vertex."""
     with Program(program, f"{folder}/dome.obj") as p, Browser(chromium) as b:
@@ -230,6 +286,13 @@ def pasting(n):
               return [s[0] / n, s[1] / n];
             })()""")
 
+        def moved_from(place):
+            """Where the feature is once it is elsewhere."""
+            end = time.monotonic() + 60
+            while max(abs(p - q) for p, q in zip(middle(), place)) < 0.01 and time.monotonic() < end:
+                time.sleep(0.05)
+            return middle()
+
         def grows(ids, check):
             for i in ids:
                 b.evaluate("taut.frames.length = 0")
@@ -242,6 +305,19 @@ def pasting(n):
         b.evaluate("(() => { const s = document.getElementById('softness'); s.value = 1; s.oninput(); })()")
         b.wait("taut.state.pose.softness === 1")
         assert b.evaluate(positions) != first
+
+        # By keyboard: to the right and back, and not from the bar.
+        assert toolbar(b)[:2] == ["turn-left", "turn-right"]
+        names(b)
+        b.evaluate("document.getElementById('map').focus()")
+        before = middle()
+        b.key("ArrowRight", modifiers=8)
+        b.wait("taut.state === null || taut.state.canUndo")
+        right = moved_from(before)
+        assert right[0] > before[0] + 0.02 and abs(right[1] - before[1]) < 0.05, (before, right)
+        b.key("ArrowLeft", modifiers=8)
+        left = moved_from(right)
+        assert left[0] < right[0] - 0.02, (right, left)
 
         start, goal = middle(), (0.32, 0.32)
         b.drag(near(*start), near(*goal))
@@ -281,6 +357,7 @@ def pasting(n):
 side = dome(f"{folder}/dome.obj")
 visit(dark=False)
 visit(dark=True)
+keyboard()
 fingers()
 pasting(side)
 print("page: all as it should be")

@@ -9,7 +9,7 @@ import sys
 import time
 import tempfile
 
-from client import Program, align, focus, keep, places, pose, redo, relax, release, save, undo
+from client import Program, align, focus, keep, move, places, pose, redo, relax, release, save, undo
 
 
 def dome(path, n=24):
@@ -361,12 +361,40 @@ def pasting(path, n):
         moved = s.message("model")
         assert manifold(moved["faces"]) == rim
         s.rest()
+
+        # Along the surface, by more than an edge and by less; not beyond its border.
+        def middle(model):
+            rim = model["faces"][3 * model["feature"]:]
+            return [sum(model["points"][3 * v + k] for v in rim) / len(rim) for k in (0, 1)]
+
+        beside = moved
+        for by in ((0.1, 0, 0), (0, 1e-3, 0)):
+            s.send(move(2, by))
+            before, beside = middle(beside), s.message("model")
+            assert manifold(beside["faces"]) == rim
+            there = [q - p for p, q in zip(before, middle(beside))]
+            assert there[0 if by[0] else 1] > 0.5 / n and abs(there[1 if by[0] else 0]) < 1.5 / n, (by, there)
+            s.rest()
+        s.send(move(2, (-5, 0, 0)))
+        note = s.message("note")["text"]
+        assert "choose another vertex" in note, note
+        s.send(pose(2, onto=next(v for v in range(len(beside["points"]) // 3) if near(beside["points"][3 * v:3 * v + 2], (0.25, 0.75), 0.05)),
+                    turn=0.5, scale=0.4))
+        moved = s.message("model")
+        s.rest()
         s.send(keep(3))
         kept = s.message("model")
         assert kept["faces"] == moved["faces"] and kept["feature"] == 2 ** 32 - 1
         s.rest()
         s.send(pose(4, turn=1.0))
         assert "nowhere" in s.message("note")["text"]
+        s.send(move(4, (0.3, -0.05, 0)))  # from where it was
+        again = s.message("model")
+        assert again["feature"] < len(again["faces"]) // 3 and middle(again)[0] > middle(moved)[0] + 0.1
+        s.rest()
+        s.send(undo())
+        assert s.message("model")["faces"] == kept["faces"]
+        s.rest()
         far = next(v for v in range(len(kept["points"]) // 3) if near(kept["points"][3 * v:3 * v + 2], (0.7, 0.7), 0.05))
         s.send(pose(5, onto=far, scale=0.4))
         twice = s.message("model")

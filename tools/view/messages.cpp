@@ -30,6 +30,7 @@ enum class kind : std::uint8_t
     seen,
     pose,
     keep,
+    move,
     // to the page
     model = 64,
     state,
@@ -141,6 +142,11 @@ wish read_wish(kind what, reader& in)
         const auto onto = in.take<std::int32_t>();
         const double turn = in.number(), scale = in.number();
         return ask::pose{onto, turn, scale, in.number()};
+    }
+    case kind::move:
+    {
+        const double x = in.number(), y = in.number();
+        return ask::move{{x, y, in.number()}};
     }
     case kind::keep:
         return ask::keep{};

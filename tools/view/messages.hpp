@@ -68,6 +68,10 @@ struct pose ///< puts the feature elsewhere
     std::int32_t onto; ///< a vertex of what is shown; -1: where it is
     double turn, scale, softness;
 };
+struct move ///< puts the feature on a vertex that lies there from where it is
+{
+    double by[3]; ///< in the space of the model
+};
 struct keep ///< makes what is pasted a part of the target
 {
 };
@@ -78,7 +82,7 @@ struct seen ///< the state of this number has been drawn: the next one may come
 } // namespace ask
 
 using wish = std::variant<ask::places, ask::release, ask::focus, ask::relax, ask::align, ask::undo, ask::redo,
-                          ask::save, ask::pose, ask::keep, ask::seen>;
+                          ask::save, ask::pose, ask::move, ask::keep, ask::seen>;
 
 /// Wishes of one gesture, say of a drag, are undone together.
 struct message

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "paste/paste_check.hpp"
 #include "view/floats.hpp"
 #include "view/subjects.hpp"
+#include "view/walk.hpp"
 
 namespace taut::view
 {
@@ -90,11 +92,20 @@ public:
         if (onto >= 0 && onto != onto_) put(target_, onto, pose); // else under the feature itself
     }
 
+    void move(const ask::move& to) override
+    {
+        const idx from = paste_ ? onto_ : nearest_to(kept_at_);
+        const idx onto = walk(*target_, from, {to.by[0], to.by[1], to.by[2]});
+        if (onto == from && paste_) throw error("the surface does not go on in this direction");
+        put(target_, onto, pose_);
+    }
+
     void keep() override
     {
         if (!paste_) throw error("the feature is nowhere: click where it is to be");
         tools::require_sound(*paste_);
         auto kept = std::make_shared<const mesh<triangle>>(paste_->surface());
+        kept_at_ = target_->points()[static_cast<std::size_t>(onto_)];
         paste_.reset();
         target_ = std::move(kept);
         onto_ = -1;
@@ -176,6 +187,13 @@ private:
         return std::abs(pose.turn - attached_.turn) < turn && std::abs(std::log(pose.scale / attached_.scale)) < scale;
     }
 
+    idx nearest_to(const vec3& place) const
+    {
+        const auto& x = target_->points();
+        const auto nearer = [&](const vec3& a, const vec3& b) { return distance(a, place) < distance(b, place); };
+        return static_cast<idx>(std::min_element(x.begin(), x.end(), nearer) - x.begin());
+    }
+
     /// Remeshes the feature from its map, which the device samples.
     void refill(paste& there) const
     {
@@ -204,6 +222,7 @@ private:
     std::shared_ptr<const mesh<triangle>> target_;
     std::optional<paste> paste_;
     idx onto_ = -1;
+    vec3 kept_at_{0.0};                                      ///< where the feature was before it was kept
     idx triangles_ = 0;                                      ///< of the feature's tessellation; 0: it stays as it is
     paste_pose pose_, attached_;                             ///< now, and when the rim was attached
     mutable std::weak_ptr<const mesh<triangle>> remembered_; ///< the target of the last moment

@@ -115,6 +115,7 @@ public:
     }
 
     void pose(const ask::pose&) override { throw error(nothing_pasted); }
+    void move(const ask::move&) override { throw error(nothing_pasted); }
     void keep() override { throw error(nothing_pasted); }
     int revision() const override { return 0; }
 

@@ -30,6 +30,7 @@ public:
     virtual void align(int axis, std::span<const std::int32_t> vertices) = 0;
     virtual void start_afresh() = 0;
     virtual void pose(const ask::pose& to) = 0;
+    virtual void move(const ask::move& to) = 0;
     virtual void keep() = 0;
 
     /// Another number where there is another model.

@@ -137,6 +137,8 @@ void workbench::grant(const message& m)
                            });
                 else if constexpr (std::is_same_v<kind, ask::pose>)
                     change(false, [&] { subject_->pose(w); });
+                else if constexpr (std::is_same_v<kind, ask::move>)
+                    change(false, [&] { subject_->move(w); });
                 else if constexpr (std::is_same_v<kind, ask::keep>)
                     change(false, [&] { subject_->keep(); });
                 else if constexpr (std::is_same_v<kind, ask::undo>)

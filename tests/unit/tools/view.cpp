@@ -76,6 +76,7 @@ public:
     void align(int, std::span<const std::int32_t>) override {}
     void start_afresh() override {}
     void pose(const ask::pose&) override {}
+    void move(const ask::move&) override {}
     void keep() override {}
     int revision() const override { return 0; }
     saved write() const override { return {}; }
@@ -158,6 +159,7 @@ TEST_CASE("messages of a page: what is said is understood, and nothing else")
     CHECK(pose.turn == 0.5);
     CHECK(pose.scale == 2);
     CHECK(pose.softness == 0.25);
+    CHECK(std::get<ask::move>(parse(begin(12).put(0.5).put(-1.0).put(0.25).list).what).by[1] == -1);
     CHECK(std::get<ask::relax>(parse(begin(4).put(std::uint8_t{1}).list).what).afresh);
     CHECK(std::get<ask::seen>(parse(begin(9).put(std::uint32_t{3}).list).what).state == 3);
 
@@ -165,6 +167,7 @@ TEST_CASE("messages of a page: what is said is understood, and nothing else")
     CHECK_THROWS_AS(
         parse(begin(1).put(std::uint32_t{1}).put(std::int32_t{5}).put(std::uint8_t{3}).put(nan).put(0.0).put(0.0).list),
         message_error);
+    CHECK_THROWS_AS(parse(begin(12).put(0.5).put(nan).put(0.25).list), message_error);
     CHECK_THROWS_AS(parse(begin(2).put(std::uint32_t{0xffffffffu}).list),
                     message_error); // before anything is allocated
     CHECK_THROWS_AS(parse(begin(2).put(std::uint32_t{1}).put(std::int32_t{-1}).list), message_error);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
+import { listenToKeys } from './keys.js';
 import * as messages from './messages.js';
+import { rove } from './toolbar.js';
 
 const { Mesh, Pane, distortion, rest } = scene;
 
@@ -22,10 +24,11 @@ class Page {
   #sending = false;
 
   constructor() {
+    this.settle = rove(element('bar'));
     this.right = new Pane(element('map'), { flat: true, afterDraw: () => this.#drawn() });
     this.#connect();
     this.#listenToButtons();
-    this.#listenToKeys();
+    listenToKeys(this);
     this.#listenToPointer(this.right);
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.panes().forEach((p) => p.applyTheme()));
     this.choose('drag');
@@ -66,7 +69,7 @@ class Page {
     this.region.clear();
     this.line = [];
     const pasting = model.shows === 'paste';
-    element('feature').hidden = !pasting;
+    for (const id of ['feature', 'soft']) element(id).hidden = !pasting;
     for (const id of ['tools', 'mapping', 'save-pins']) element(id).hidden = pasting;
     element('texture').parentElement.hidden = model.shows !== 'map';
     this.image = null;
@@ -87,6 +90,9 @@ class Page {
         this.right.setFlat(false);
       }
     }
+    const moved = pasting ? 'Surface: arrow keys move the feature' : `${model.shows === 'map' ? 'Map' : 'Shape'}: arrow keys move the current pin`;
+    element('map').setAttribute('aria-label', `${moved}, ${model.dimension === 3 ? 'comma and full stop turn it, ' : ''}Page Up and Page Down zoom`);
+    this.settle();
     this.right.setMesh(this.mesh);
     for (let f = model.feature; f < this.mesh.faceCount; ++f) this.region.add(f);
     this.seenBefore = this.seenBefore === model.name ? this.seenBefore : '';
@@ -109,7 +115,7 @@ class Page {
     // Where pictures take long the other view waits until there is no further state for a while.
     clearTimeout(this.#later);
     if (state.writer && this.#drag?.vertex >= 0) this.#sendDrag();
-    if (first) this.#mark();
+    if (first) this.mark();
     else this.#markVertices();
     this.#leftWaits = this.right.isLate;
     if (!this.#leftWaits) this.#showOnLeft();
@@ -179,6 +185,7 @@ class Page {
   #showHistory(state) {
     element('undo').disabled = !state.writer || !state.canUndo;
     element('redo').disabled = !state.writer || !state.canRedo;
+    this.settle();
     if (!state.writer) this.note('another page is open and writes; this one looks on');
     this.#pending = state.number;
   }
@@ -195,7 +202,7 @@ class Page {
     if (this.#leftWaits) this.#later = setTimeout(() => this.#showOnLeft(), rest);
   }
 
-  #mark() {
+  mark() {
     if (!this.state) return;
     this.#markVertices();
     const chosen = new Float32Array(this.mesh.faceCount);
@@ -218,7 +225,7 @@ class Page {
     this.tool = tool;
     for (const b of document.querySelectorAll('[data-tool]')) b.setAttribute('aria-checked', String(b.dataset.tool === tool));
     if (tool !== 'path') this.line = [];
-    this.#mark();
+    this.mark();
   }
 
   position(v) {
@@ -279,8 +286,8 @@ class Page {
       relax: () => this.relax(), afresh: () => this.relax(true), focus: () => this.toggleFocus(),
       'straight-u': () => this.straighten(0), 'straight-v': () => this.straighten(1), release: () => this.unpin(),
       undo: () => this.send(messages.undo()), redo: () => this.send(messages.redo()),
-      'turn-left': () => this.#change({ turn: this.pose.turn + Math.PI / 36 }), 'turn-right': () => this.#change({ turn: this.pose.turn - Math.PI / 36 }),
-      smaller: () => this.#change({ scale: this.pose.scale / 1.05 }), larger: () => this.#change({ scale: this.pose.scale * 1.05 }),
+      'turn-left': () => this.change({ turn: this.pose.turn + Math.PI / 36 }), 'turn-right': () => this.change({ turn: this.pose.turn - Math.PI / 36 }),
+      smaller: () => this.change({ scale: this.pose.scale / 1.05 }), larger: () => this.change({ scale: this.pose.scale * 1.05 }),
       keep: () => this.send(messages.keep(++this.gesture)),
       texture: () => this.#texture(), save: () => this.send(messages.save()), 'save-pins': () => this.savePins(),
     };
@@ -290,71 +297,17 @@ class Page {
     for (const [id, f] of Object.entries(actions)) element(id).onclick = () => { if (this.state) f(); };
   }
 
+  /** The feature, by a part of what is seen to the right and upwards. */
+  move(x, y) {
+    const { elements } = this.right.camera.matrixWorld, d = this.right.extent;
+    this.send(messages.move(++this.gesture, [0, 1, 2].map((k) => d * (x * elements[k] + y * elements[4 + k]))));
+    this.note('');
+  }
+
   /** As a gesture of its own. */
-  #change(pose) {
+  change(pose) {
     ++this.gesture;
     this.place(pose);
-  }
-
-  #listenToKeys() {
-    const click = (id) => () => element(id).click();
-    const pasting = {
-      q: click('turn-left'), e: click('turn-right'), '-': click('smaller'), '+': click('larger'), '=': click('larger'), Enter: click('keep'),
-      w: () => this.#toggleWires(),
-    };
-    const keys = {
-      t: click('texture'),
-      d: () => this.choose('drag'), s: () => this.choose('region'), l: () => this.choose('path'), n: () => this.relax(true),
-      f: () => this.toggleFocus(), u: () => this.straighten(0), v: () => this.straighten(1), ' ': () => this.relax(),
-      Delete: () => this.unpin(), Backspace: () => this.unpin(), Escape: () => { this.region.clear(); this.line = []; this.#mark(); },
-      w: () => this.#toggleWires(),
-      '[': () => this.#nextPin(-1), ']': () => this.#nextPin(1),
-      ArrowLeft: (e) => this.#nudge(0, -1, e), ArrowRight: (e) => this.#nudge(0, 1, e),
-      ArrowUp: (e) => this.#nudge(1, 1, e), ArrowDown: (e) => this.#nudge(1, -1, e),
-    };
-    addEventListener('keydown', (e) => {
-      if (!this.state) return;
-      if (e.ctrlKey || e.metaKey) {
-        const key = e.key.toLowerCase();
-        if (key === 'z') this.send(e.shiftKey ? messages.redo() : messages.undo());
-        else if (key === 'y') this.send(messages.redo());
-        else if (key === 's') this.send(messages.save());
-        else return;
-        return e.preventDefault();
-      }
-      if ((e.key === ' ' || e.key === 'Enter') && e.target instanceof HTMLButtonElement) return; // presses it
-      if (e.target instanceof HTMLInputElement && e.key.startsWith('Arrow')) return; // moves it
-      const f = (this.tool === 'place' ? pasting : keys)[e.key];
-      if (!f) return;
-      e.preventDefault();
-      f(e);
-    });
-    addEventListener('keyup', (e) => { if (e.key.startsWith('Arrow')) ++this.gesture; });
-  }
-
-  #toggleWires() {
-    for (const p of this.panes()) {
-      p.edges = !p.edges;
-      p.draw();
-    }
-  }
-
-  #nextPin(step) {
-    const pins = [...this.state.pins.keys()];
-    if (pins.length === 0) return;
-    const at = pins.indexOf(this.current);
-    this.current = pins[(at + step + pins.length + (at < 0 && step < 0 ? 1 : 0)) % pins.length];
-    this.note(`vertex ${this.current}`);
-    this.#mark();
-  }
-
-  /** By a two-hundredth of the map, with Shift a twentieth. */
-  #nudge(axis, sign, e) {
-    const pin = this.state.pins.get(this.current);
-    if (!pin) return this.note('no current pin: [ and ] go from one to the next');
-    const x = pin.x.map((value, k) => ((pin.held >> k) & 1 ? value : this.position(this.current)[k] ?? 0));
-    x[axis] += (sign * this.right.extent * (e.shiftKey ? 10 : 1)) / 200;
-    this.pin(this.current, x);
   }
 
   #listenToPointer(pane) {
@@ -384,7 +337,7 @@ class Page {
       canvas.setPointerCapture(e.pointerId);
       if (this.tool === 'path') {
         this.line.push(...(this.line.length > 0 ? this.mesh.path(this.line.at(-1), v).slice(1) : [v]));
-        this.#mark();
+        this.mark();
       } else if (this.tool === 'region') {
         this.#drag = { centre: v, pane, start: at, before: e.shiftKey ? new Set(this.region) : new Set() };
         this.#grow(at);
@@ -420,7 +373,7 @@ class Page {
     canvas.addEventListener('pointercancel', end);
     canvas.addEventListener('dblclick', (e) => { // nowhere yet, or far away
       const v = this.tool === 'place' ? pane.vertexAt(pixel(e), reach) : -1;
-      if (v >= 0) this.#change({ onto: v });
+      if (v >= 0) this.change({ onto: v });
     });
     canvas.addEventListener('contextmenu', (e) => {
       e.preventDefault();
@@ -461,7 +414,7 @@ class Page {
     const radius = (Math.hypot(at[0] - start[0], at[1] - start[1]) * height) / pane.canvas.clientHeight / pane.camera.zoom;
     this.region = new Set(before);
     for (const f of this.mesh.disk(centre, radius)) this.region.add(f);
-    this.#mark();
+    this.mark();
   }
 }
 

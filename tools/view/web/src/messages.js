@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The language of page and program: binary messages, little-endian; docs/howto/view.md has the table.
 
-const kinds = { places: 1, release: 2, focus: 3, relax: 4, align: 5, undo: 6, redo: 7, save: 8, seen: 9, pose: 10, keep: 11 };
+const kinds = { places: 1, release: 2, focus: 3, relax: 4, align: 5, undo: 6, redo: 7, save: 8, seen: 9, pose: 10, keep: 11, move: 12 };
 
 class Writer {
   constructor(kind, gesture, size) {
@@ -33,6 +33,8 @@ export const align = (gesture, axis, vertices) =>
 /** onto: a vertex of what is shown, or -1. */
 export const pose = (gesture, p) =>
   new Writer('pose', gesture, 28).u32(p.onto >>> 0).f64(p.turn).f64(p.scale).f64(p.softness).take();
+/** by: in the space of the model. */
+export const move = (gesture, by) => new Writer('move', gesture, 24).f64(by[0]).f64(by[1]).f64(by[2]).take();
 export const keep = (gesture) => new Writer('keep', gesture, 0).take();
 export const undo = () => new Writer('undo', 0, 0).take();
 export const redo = () => new Writer('redo', 0, 0).take();
