@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from . import _drivers
+
 
 class TautError(RuntimeError):
     """Base of what taut raises.
@@ -77,11 +79,14 @@ class DeviceError(TautError):
 
     def __init__(self, message: str = "", **more: Any) -> None:
         if not self.remedy and "no OpenCL platform is installed" in message:
-            self.remedy = (
-                "install an OpenCL driver: `pip install taut[pocl]` (any CPU), `apt install pocl-opencl-icd`, "
-                "or `conda install -c conda-forge pocl`"
-            )
+            self.remedy = _drivers.remedy()
             message = f"there is no OpenCL device; {self.remedy}\n{message}"
+        elif not self.remedy and "libOpenCL" in message:
+            self.remedy = (
+                "install the loader of OpenCL drivers: `apt install ocl-icd-libopencl1`, "
+                "or `conda install -c conda-forge ocl-icd`"
+            )
+            message = f"there is no OpenCL loader; {self.remedy}\n{message}"
         super().__init__(message, **more)
 
 

@@ -149,8 +149,20 @@ def test_functions_are_pickled_and_run_by_spawn(bowl):
         assert e.value.field == "F"
 
 
+def test_the_first_calls_of_a_process_may_be_made_at_a_time():
+    done = run_python("""
+        import concurrent.futures, taut
+        V, F = [[0, 0, 0], [1, 0, 0], [1, 1, 0.5], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            print(all(pool.map(lambda _: taut.unwrap(V, F).certified, range(4))))
+    """)
+    assert done.stdout.strip() == "True", done.stderr
+
+
 def test_without_a_driver_the_first_call_says_what_to_install(tmp_path):
     done = run_python("""
+        import sys
+        sys.modules.update(pocl_binary_distribution=None, pyopencl=None)  # as where pip has brought none
         import taut
         print(taut.certify([[0, 1, 2]], [[0, 0], [1, 0], [0, 1]]).elements)
         try:
