@@ -23,6 +23,16 @@ ProgressLike = Union[Callable[[Any], Any], bool, None]
 #: Options that are whole numbers, which may be given as floats that are.
 _WHOLE = ("resolution", "max_resolution", "padding", "tiles", "align", "iterations")
 
+#: Arguments by what the library calls them.
+_NAMES = {
+    "stopping.gradient_tolerance": "tolerance",
+    "stopping.max_iterations": "iterations",
+    "data.weights": "weights",
+    "data.attributes": "attributes",
+    "data.directions": "directions",
+    "data.parameters": "parameters",
+}
+
 _watching: ContextVar[Any] = ContextVar("taut_control", default=None)
 
 
@@ -75,6 +85,7 @@ def named(names: Mapping[str, str]) -> Iterator[None]:
 
     names : what the library calls them, and what the call does; others have the same name in both
     """
+    names = {**_NAMES, **names}
     try:
         yield
     except ParameterError as e:
@@ -85,6 +96,31 @@ def named(names: Mapping[str, str]) -> Iterator[None]:
         for old, new in names.items():
             what = what.replace(f"`{old}`", f"`{new}`")
         raise ParameterError(f"{name}: {what}", field=name) from None
+
+
+@contextmanager
+def shown(progress: ProgressLike) -> Iterator[Any]:
+    """What the library tells progress to while a call lasts: a function, or None."""
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        raise ParameterError(f"progress: is {progress!r}, but must be a function, or True for a line", field="progress")
+    line = _Line() if progress is True else None
+    try:
+        yield line or progress or None
+    finally:
+        if line is not None:
+            line.close()
+
+
+def _checked(options: dict[str, Any]) -> dict[str, Any]:
+    """Whole numbers that were given as floats, and limits of time."""
+    for name in _WHOLE:
+        value = options.get(name)
+        if isinstance(value, (float, np.floating)) and float(value).is_integer():
+            options[name] = int(value)
+    seconds = options.get("time_limit")
+    if isinstance(seconds, (int, float)) and not seconds >= 0:
+        raise ParameterError(f"time_limit: is {seconds}, but must not be negative", field="time_limit")
+    return options
 
 
 def call(
@@ -99,21 +135,9 @@ def call(
     make : turns what the library returns into a result; raises `NoMap` where it is none.
     names : as of `named()`
     """
-    if progress is not None and not isinstance(progress, bool) and not callable(progress):
-        raise ParameterError(f"progress: is {progress!r}, but must be a function, or True for a line", field="progress")
-    line = _Line() if progress is True else None
-    options = args[-1]
-    for name in _WHOLE:
-        value = options.get(name)
-        if isinstance(value, (float, np.floating)) and float(value).is_integer():
-            options[name] = int(value)
-    options["progress"] = line if progress is True else progress or None
-    try:
-        with named(names or {}):
-            ended, found = function(*args, control())
-    finally:
-        if line is not None:
-            line.close()
+    options = _checked(args[-1])
+    with shown(progress) as options["progress"], named(names or {}):
+        ended, found = function(*args, control())
     return conclude(ended, found, make)
 
 
