@@ -63,8 +63,8 @@ def paste(
     >>> a = np.array([9 * i + j for i in range(8) for j in range(8)])
     >>> F = np.r_[np.c_[a, a + 1, a + 10], np.c_[a, a + 10, a + 9]]
     >>> flat, hill = np.c_[x, y, 0 * x], np.c_[x, y, np.exp(-9 * (x * x + y * y))]
-    >>> V, _ = taut.paste((flat, F), (hill, F), 40, at=40, radius=0.7)
-    >>> bool(V[:, 2].max() > 0.9)
+    >>> V, _ = taut.paste((flat, F), (hill, F), 40, at=40, radius=1.0)
+    >>> bool(V[:, 2].max() > 0.5)
     True
     """
     V, F = _options.pair("target", target, planar=False)
