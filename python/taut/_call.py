@@ -137,21 +137,33 @@ def call(
     """
     options = _checked(args[-1])
     with shown(progress) as options["progress"], named(names or {}):
-        ended, found = function(*args, control())
-    return conclude(ended, found, make)
+        told = function(*args, control())
+    return conclude(told, make)
 
 
-def conclude(ended: str, found: dict[str, Any] | None, make: Callable[[dict[str, Any]], T]) -> T:
-    """The result of a call that ended so, or the exception that it ends with."""
+def conclude(
+    told: tuple[str, dict[str, Any] | None, Callable[[], dict[str, Any] | None] | None],
+    make: Callable[[dict[str, Any]], T],
+) -> T:
+    """The result of a call that ended so, or the exception that it ends with.
+
+    told : how it ended, what it found, and of work that was left alone a function that waits for what it finds
+    """
+    ended, found, later = told
     if ended == "finished" and found is not None:
         return make(found)
-    best: Any = None
-    if found is not None:
+
+    def best_of(d: dict[str, Any] | None) -> Any:
         try:
-            best = make(found)
+            return None if d is None else make(d)
         except NoMap:
-            pass
-    what = "; .best has the result so far" if best is not None else ", before there was a result"
+            return None
+
+    best, wait = best_of(found), None
+    if later is not None:
+        what, wait = "; it still ends, and .best waits for its result", lambda: best_of(later())
+    else:
+        what = "; .best has the result so far" if best is not None else ", before there was a result"
     if ended == "cancelled":
-        raise Cancelled("the call was cancelled" + what, best=best)
-    raise Interrupted("the call was interrupted" + what, best=best)
+        raise Cancelled("the call was cancelled" + what, best=best, later=wait)
+    raise Interrupted("the call was interrupted" + what, best=best, later=wait)

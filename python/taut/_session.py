@@ -222,6 +222,6 @@ class Session:
         seconds = math.inf if time is None else _arrays.number("time", time)
         if steps is not None and (steps != steps // 1 or steps < 1):
             raise ParameterError(f"steps: is {steps}, but must be a whole number, 1 or more", field="steps")
-        with shown(progress) as told:
-            ended, found = self._session.solve(seconds, int(steps or 0), told, control())
-        return conclude(ended, found, make)
+        with shown(progress) as line:
+            told = self._session.solve(seconds, int(steps or 0), line, control())
+        return conclude(told, make)

@@ -6,7 +6,7 @@ All derive from `TautError`, but `Interrupted`, which is a `KeyboardInterrupt`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from . import _drivers
@@ -115,17 +115,34 @@ class Infeasible(NoMap):
         self.proof = message
 
 
-class Cancelled(TautError):
+class _WithBest(BaseException):
+    """An end before the end of the work: what there is by then, or what the work still comes to."""
+
+    _best: Any = None
+    _later: Callable[[], Any] | None = None
+
+    @property
+    def best(self) -> Any:
+        """The best valid result by then, or None. Where the work had not ended within 0.4 s, it is waited for."""
+        if self._later is not None:
+            self._best = self._later()
+            self._later = None
+        return self._best
+
+    def __reduce__(self) -> Any:
+        return type(self), self.args, {**self.__dict__, "_later": None}
+
+
+class Cancelled(_WithBest, TautError):
     """A job that was cancelled; `best` is the best valid result by then, or None."""
 
-    def __init__(self, message: str = "", *, best: Any = None, **more: Any) -> None:
-        super().__init__(message, **more)
-        self.best = best
+    def __init__(self, message: str = "", *, best: Any = None, later: Callable[[], Any] | None = None, **more: Any) -> None:
+        super().__init__(message, _best=best, _later=later, **more)
 
 
-class Interrupted(KeyboardInterrupt):
+class Interrupted(_WithBest, KeyboardInterrupt):
     """Ctrl-C during a call; `best` is the best valid result by then, or None."""
 
-    def __init__(self, message: str = "", *, best: Any = None) -> None:
+    def __init__(self, message: str = "", *, best: Any = None, later: Callable[[], Any] | None = None) -> None:
         super().__init__(message)
-        self.best = best
+        self._best, self._later = best, later
