@@ -208,14 +208,17 @@ def measured(python, given):
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    arguments.add_argument("--folder", type=pathlib.Path, default=ROOT / "build" / "peers")
+    arguments.add_argument("--folder", type=pathlib.Path, default=ROOT / "build" / "peers",
+                           help="of the virtual environment, meshes and rows.json (default build/peers)")
     arguments.add_argument("--limit", type=float, default=120, help="processor seconds of a process")
     arguments.add_argument("--total", type=float, default=math.inf, help="seconds of all together")
-    arguments.add_argument("--write", type=pathlib.Path)
-    arguments.add_argument("--repeat", type=int, default=3)
-    arguments.add_argument("--only", default="atlas,disk,volume", help="kinds of tasks")
-    arguments.add_argument("--program", action="append", default=[], metavar='NAME="COMMAND {in} {out}"')
-    arguments.add_argument("meshes", nargs="*", type=pathlib.Path)
+    arguments.add_argument("--write", type=pathlib.Path, metavar="PAGE", help="the page to make, with its pictures")
+    arguments.add_argument("--repeat", type=int, default=3,
+                           help="runs of each peer, of which the median is told: by default 3, and 1 of what takes a tenth of the limit")
+    arguments.add_argument("--only", default="atlas,disk,volume", metavar="KINDS", help="kinds of tasks: atlas,disk,volume")
+    arguments.add_argument("--program", action="append", default=[], metavar='NAME="COMMAND {in} {out}"',
+                           help="another peer: a program that reads and writes OBJ files, such as OptCuts")
+    arguments.add_argument("meshes", nargs="*", type=pathlib.Path, help="surfaces as OFF, instead of the public ones")
     given = arguments.parse_args()
     python = environment(given.folder)
     if pathlib.Path(sys.executable).absolute() != python.absolute():  # it has numpy and matplotlib

@@ -244,7 +244,7 @@ nb::object make(const array& V, const array& F, const nb::dict& keywords, const 
     read_atlas_options(job->params, given);
     job->params.limits.observer = watched.shared->observer("atlas");
     return told(run(watched.shared, given.progress(), [job] { return job->make(); }),
-                [&](atlas made) -> nb::object { return dict_of(*job, std::move(made)); });
+                [job](atlas made) -> nb::object { return dict_of(*job, std::move(made)); });
 }
 
 } // namespace

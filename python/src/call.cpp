@@ -15,6 +15,14 @@
 namespace taut::python
 {
 
+struct handover
+{
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool done = false;
+    std::exception_ptr error;
+};
+
 namespace
 {
 
@@ -24,15 +32,6 @@ using namespace std::chrono_literals;
 /// Between looks for signals, for which other threads of Python have to give up the interpreter's lock: on processors
 /// that are busy they get it back late.
 constexpr auto interval_of_looks = 80ms;
-
-/// What the worker tells the thread that waits.
-struct handover
-{
-    std::mutex mutex;
-    std::condition_variable changed;
-    bool done = false;
-    std::exception_ptr error;
-};
 
 struct left_work
 {
@@ -163,7 +162,8 @@ private:
 
 } // namespace
 
-ending run_work(const std::shared_ptr<control>& watched, nb::handle progress, std::function<void()> work)
+ending run_work(const std::shared_ptr<control>& watched, nb::handle progress, std::function<void()> work,
+                std::shared_ptr<handover>& left_alone)
 {
     forget_ended();
     const listed call(watched);
@@ -204,6 +204,7 @@ ending run_work(const std::shared_ptr<control>& watched, nb::handle progress, st
         if (!done && watching.late())
         {
             left().push_back({std::move(worker), state});
+            left_alone = state;
             break;
         }
     }
@@ -212,6 +213,21 @@ ending run_work(const std::shared_ptr<control>& watched, nb::handle progress, st
     const std::lock_guard lock(state->mutex);
     if (state->done && state->error && watching.how == ending::finished) std::rethrow_exception(state->error);
     return watching.how;
+}
+
+bool has_ended_well(handover& left)
+{
+    for (bool done = false; !done;)
+    {
+        {
+            nb::gil_scoped_release unlocked;
+            std::unique_lock lock(left.mutex);
+            done = left.changed.wait_for(lock, interval_of_looks, [&] { return left.done; });
+        }
+        if (!done && PyErr_CheckSignals() != 0) throw nb::python_error();
+    }
+    const std::lock_guard lock(left.mutex);
+    return !left.error;
 }
 
 void join_left_work()

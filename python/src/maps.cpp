@@ -105,7 +105,7 @@ nb::object unwrap(const array& V, const array& F, const nb::dict& keywords, cons
                         job->device = borrow_queue(device);
                         return parameterize(*job->device, job->cut ? job->cut->surface : job->surface, job->params);
                     }),
-                [&](map_result result) -> nb::object
+                [job](map_result result) -> nb::object
                 {
                     nb::dict d = dict_of(result.report);
                     d["x"] = array_of<2>(std::move(result.uv));

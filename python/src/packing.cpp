@@ -55,7 +55,7 @@ nb::object pack_of(const array& uv, const array& F, const array& first_cell, con
     if (const auto tiles = given.rows("wall_tiles")) params.walls = walls_of(*tiles, *given.rows("wall_ends"));
     params.limits.observer = watched.shared->observer("pack");
     return told(run(watched.shared, given.progress(), [job] { return job->make(); }),
-                [&](const packing& made) -> nb::object
+                [job](const packing& made) -> nb::object
                 {
                     nb::dict d;
                     std::vector<idx> tiles;

@@ -97,7 +97,7 @@ nb::object paste_of(const array& V, const array& F, const array& source_V, const
     given.read_seconds("time_limit", job->params.limits.time_limit);
     given.read("device", job->device);
     return told(run(watched.shared, given.progress(), [job] { return make(*job); }),
-                [&](pasted made) -> nb::object { return dict_of(std::move(made)); });
+                [](pasted made) -> nb::object { return dict_of(std::move(made)); });
 }
 
 } // namespace

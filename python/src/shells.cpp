@@ -39,7 +39,7 @@ nb::object shell(const array& V, const array& F, const nb::dict& keywords, const
                         job->queue_in_use = borrow_queue(job->device);
                         return deform(*job->queue_in_use, job->surface, job->params);
                     }),
-                [&](session_result<hinge> made) -> nb::object
+                [](session_result<hinge> made) -> nb::object
                 {
                     nb::dict d = dict_of(made.report);
                     d["x"] = array_of<3>(std::move(made.x));

@@ -144,7 +144,7 @@ nb::object deform_of(const array& V, const nb::list& C, const nb::dict& keywords
                         return impl::refined_deformation<Element>{
                             deform(*job->queue_in_use, job->simplices(), job->deforming), job->simplices(), {}, {}, 0};
                     }),
-                [&](impl::refined_deformation<Element> made) -> nb::object
+                [job](impl::refined_deformation<Element> made) -> nb::object
                 {
                     nb::dict d = dict_of(made.result.report);
                     d["x"] = array_of<D>(std::move(made.result.x));
@@ -175,7 +175,7 @@ nb::object smooth_of(const array& V, const nb::list& C, const nb::dict& keywords
                         job->queue_in_use = borrow_queue(job->device);
                         return smooth(*job->queue_in_use, job->simplices(), job->smoothing);
                     }),
-                [&](smooth_result<Element> made) -> nb::object
+                [](smooth_result<Element> made) -> nb::object
                 {
                     nb::dict d = dict_of(made.report);
                     d["before"] = dict_of(made.before);
@@ -232,7 +232,7 @@ nb::object untangle_of(const array& X, const nb::list& C, const nb::dict& keywor
                         return impl::refined_untangling<Element>{
                             untangle(*job->queue_in_use, job->problem, job->params), {job->problem}};
                     }),
-                [&](impl::refined_untangling<Element> made) -> nb::object
+                [job](impl::refined_untangling<Element> made) -> nb::object
                 {
                     nb::dict d = dict_of(std::move(made.result));
                     if (job->refine) add_refined(d, made.refined.problem.rest, made.refined.cells, made.refined.rounds);

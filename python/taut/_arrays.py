@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, Union
 
 import numpy as np
@@ -46,6 +47,8 @@ def _numbers(name: str, value: Any, *, nan: bool = False) -> Array:
 
 def _no_numbers(value: Any, error: Exception) -> str:
     """Why an argument is no array of numbers."""
+    if isinstance(value, (str, os.PathLike)):
+        return f"is {str(value)!r}, which is no array; taut.read() reads files"
     if "inhomogeneous" in str(error):
         sizes = [len(row) if hasattr(row, "__len__") else 0 for row in value]
         other = next((k for k, size in enumerate(sizes) if size != sizes[0]), None)
@@ -113,6 +116,21 @@ def ids(name: str, value: Any, count: int) -> Array:
             raise ParameterError(f"{name}: has {len(a)} flags, but must have {count}", field=name)
         return np.flatnonzero(a)
     return _in_range(name, a, count)
+
+
+def vertex(name: str, value: Any, count: int) -> int:
+    """The number of one vertex."""
+    if np.ndim(value):
+        raise ParameterError(f"{name}: has the shape {np.shape(value)}, but must be one vertex", field=name)
+    return int(ids(name, [value], count)[0])
+
+
+def number(name: str, value: Any) -> float:
+    """One number, of any value."""
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise ParameterError(f"{name}: is {value!r}, but must be a number", field=name) from None
 
 
 def _in_range(name: str, a: Array, count: int) -> Array:

@@ -186,6 +186,7 @@ def atlas(
         options["parts"] = _arrays.numbers("parts", parts, m)
     if seams is not None:
         options["seams"] = _arrays.indices("seams", seams, (2,), len(points))
+        _require_edges("seams", options["seams"], faces, len(points))
     if seam_weights is not None:
         options["weighted_edges"], options["edge_weights"] = _weighted_edges(seam_weights, faces, len(points))
     if uv is not None:
@@ -243,6 +244,12 @@ def _weighted_edges(rows: Any, faces: Any, vertices: int) -> tuple[Any, Any]:
             f"{name}: row {bad[0]} has the factor {factors[bad[0]]:g}, but they go from 0.001 to 1000",
             field=name, ids=[bad[0]],
         )
+    _require_edges(name, edges, faces, vertices)
+    return edges, factors
+
+
+def _require_edges(name: str, edges: Any, faces: Any, vertices: int) -> None:
+    """Raises `ParameterError` for two vertices that no edge joins."""
     F = np.asarray(faces, dtype=np.int64)
     known = np.sort(np.stack([F, np.roll(F, -1, 1)], 2).reshape(-1, 2), 1)
     a = np.sort(edges.astype(np.int64), 1)
@@ -252,12 +259,13 @@ def _weighted_edges(rows: Any, faces: Any, vertices: int) -> tuple[Any, Any]:
         raise ParameterError(
             f"{name}: row {missing[0]} names the vertices {i} and {j}, which no edge joins", field=name, ids=[i, j]
         )
-    return edges, factors
 
 
 def _several(meshes: Any, **options: Any) -> list[Atlas]:
     """One atlas of several surfaces, and the part of each in it."""
-    pairs = [_options.surface(*mesh, names=(f"V of mesh {k}", f"F of mesh {k}")) for k, mesh in enumerate(meshes)]
+    if isinstance(meshes, np.ndarray) or not np.iterable(meshes):
+        raise ParameterError("F: is not given; without it V must be a list of pairs, (V, F)", field="F")
+    pairs = [_options.pair(f"mesh {k}", mesh) for k, mesh in enumerate(meshes)]
     if not pairs:
         return []
     first = np.cumsum([0] + [len(V) for V, _ in pairs])

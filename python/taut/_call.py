@@ -23,6 +23,16 @@ ProgressLike = Union[Callable[[Any], Any], bool, None]
 #: Options that are whole numbers, which may be given as floats that are.
 _WHOLE = ("resolution", "max_resolution", "padding", "tiles", "align", "iterations")
 
+#: Arguments by what the library calls them.
+_NAMES = {
+    "stopping.gradient_tolerance": "tolerance",
+    "stopping.max_iterations": "iterations",
+    "data.weights": "weights",
+    "data.attributes": "attributes",
+    "data.directions": "directions",
+    "data.parameters": "parameters",
+}
+
 _watching: ContextVar[Any] = ContextVar("taut_control", default=None)
 
 
@@ -75,6 +85,7 @@ def named(names: Mapping[str, str]) -> Iterator[None]:
 
     names : what the library calls them, and what the call does; others have the same name in both
     """
+    names = {**_NAMES, **names}
     try:
         yield
     except ParameterError as e:
@@ -85,6 +96,31 @@ def named(names: Mapping[str, str]) -> Iterator[None]:
         for old, new in names.items():
             what = what.replace(f"`{old}`", f"`{new}`")
         raise ParameterError(f"{name}: {what}", field=name) from None
+
+
+@contextmanager
+def shown(progress: ProgressLike) -> Iterator[Any]:
+    """What the library tells progress to while a call lasts: a function, or None."""
+    if progress is not None and not isinstance(progress, bool) and not callable(progress):
+        raise ParameterError(f"progress: is {progress!r}, but must be a function, or True for a line", field="progress")
+    line = _Line() if progress is True else None
+    try:
+        yield line or progress or None
+    finally:
+        if line is not None:
+            line.close()
+
+
+def _checked(options: dict[str, Any]) -> dict[str, Any]:
+    """Whole numbers that were given as floats, and limits of time."""
+    for name in _WHOLE:
+        value = options.get(name)
+        if isinstance(value, (float, np.floating)) and float(value).is_integer():
+            options[name] = int(value)
+    seconds = options.get("time_limit")
+    if isinstance(seconds, (int, float)) and not seconds >= 0:
+        raise ParameterError(f"time_limit: is {seconds}, but must not be negative", field="time_limit")
+    return options
 
 
 def call(
@@ -99,35 +135,35 @@ def call(
     make : turns what the library returns into a result; raises `NoMap` where it is none.
     names : as of `named()`
     """
-    if progress is not None and not isinstance(progress, bool) and not callable(progress):
-        raise ParameterError(f"progress: is {progress!r}, but must be a function, or True for a line", field="progress")
-    line = _Line() if progress is True else None
-    options = args[-1]
-    for name in _WHOLE:
-        value = options.get(name)
-        if isinstance(value, (float, np.floating)) and float(value).is_integer():
-            options[name] = int(value)
-    options["progress"] = line if progress is True else progress or None
-    try:
-        with named(names or {}):
-            ended, found = function(*args, control())
-    finally:
-        if line is not None:
-            line.close()
-    return conclude(ended, found, make)
+    options = _checked(args[-1])
+    with shown(progress) as options["progress"], named(names or {}):
+        told = function(*args, control())
+    return conclude(told, make)
 
 
-def conclude(ended: str, found: dict[str, Any] | None, make: Callable[[dict[str, Any]], T]) -> T:
-    """The result of a call that ended so, or the exception that it ends with."""
+def conclude(
+    told: tuple[str, dict[str, Any] | None, Callable[[], dict[str, Any] | None] | None],
+    make: Callable[[dict[str, Any]], T],
+) -> T:
+    """The result of a call that ended so, or the exception that it ends with.
+
+    told : how it ended, what it found, and of work that was left alone a function that waits for what it finds
+    """
+    ended, found, later = told
     if ended == "finished" and found is not None:
         return make(found)
-    best: Any = None
-    if found is not None:
+
+    def best_of(d: dict[str, Any] | None) -> Any:
         try:
-            best = make(found)
+            return None if d is None else make(d)
         except NoMap:
-            pass
-    what = "; .best has the result so far" if best is not None else ", before there was a result"
+            return None
+
+    best, wait = best_of(found), None
+    if later is not None:
+        what, wait = "; it still ends, and .best waits for its result", lambda: best_of(later())
+    else:
+        what = "; .best has the result so far" if best is not None else ", before there was a result"
     if ended == "cancelled":
-        raise Cancelled("the call was cancelled" + what, best=best)
-    raise Interrupted("the call was interrupted" + what, best=best)
+        raise Cancelled("the call was cancelled" + what, best=best, later=wait)
+    raise Interrupted("the call was interrupted" + what, best=best, later=wait)

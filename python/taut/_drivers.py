@@ -3,13 +3,42 @@
 
 from __future__ import annotations
 
+import hashlib
 import importlib.util
 import os
+import shutil
 import tempfile
 from pathlib import Path
 
 _SYSTEM = Path("/etc/OpenCL/vendors")
 _PACKAGES = ("pocl_binary_distribution", "pyopencl")
+
+#: Where the compiler inside PoCL looks for the library that it links kernels with.
+_LIBGCC = ("usr/lib/gcc/*/*/libgcc.a", "usr/lib64/gcc/*/*/libgcc.a", "usr/lib32/gcc/*/*/libgcc.a")
+
+#: Why drivers of pip are left out, where they are.
+left_out = ""
+
+REMEDY = (
+    "install an OpenCL driver: `pip install taut[pocl]` (any CPU), `apt install pocl-opencl-icd`, "
+    "or `conda install -c conda-forge pocl`"
+)
+
+
+def remedy() -> str:
+    """What to install where there is no device."""
+    return left_out or REMEDY
+
+
+def _has_drivers(vendors: str | None) -> bool:
+    """Whether the loader finds drivers there; None: where it looks without being told."""
+    place = Path(vendors) if vendors else _SYSTEM
+    return any(place.glob("*.icd")) if place.is_dir() or not vendors else True
+
+
+def _can_link(root: Path = Path("/")) -> bool:
+    """Whether PoCL as pip has it can link kernels: it ends the program where it cannot."""
+    return shutil.which("ld") is not None and any(any(root.glob(pattern)) for pattern in _LIBGCC)
 
 
 def drivers_by_pip() -> list[str]:
@@ -26,24 +55,39 @@ def drivers_by_pip() -> list[str]:
 
 
 def announce() -> None:
-    """Sets what loaders read, unless the user has set it or the system has drivers.
+    """Sets what loaders read, unless the user has named drivers or the system has some.
 
-    Two drivers of one kind in a process do not go well together, so those of the system go first.
+    Two drivers of one kind in a process do not go well together, so those of the system go first. A folder of the
+    user's without drivers hides those of the system, and not these.
     """
-    if os.environ.get("OCL_ICD_VENDORS") or os.environ.get("OCL_ICD_FILENAMES") or any(_SYSTEM.glob("*.icd")):
+    global left_out
+    if os.environ.get("OCL_ICD_FILENAMES") or _has_drivers(os.environ.get("OCL_ICD_VENDORS")):
         return
     libraries = drivers_by_pip()
     if not libraries:
         return
+    if not _can_link():
+        left_out = (
+            "PoCL as pip has it needs the linker `ld` and libgcc: `apt install gcc`, or take another OpenCL driver: "
+            "`apt install pocl-opencl-icd`, or `conda install -c conda-forge pocl`"
+        )
+        return
     # One loader takes a list, another a folder.
     os.environ["OCL_ICD_FILENAMES"] = os.pathsep.join(libraries)
-    folder = Path(tempfile.gettempdir()) / f"taut-drivers-{os.getuid() if hasattr(os, 'getuid') else 0}"
+    os.environ["OCL_ICD_VENDORS"] = str(_folder_of(libraries))
+
+
+def _folder_of(libraries: list[str]) -> Path:
+    """A folder that names these drivers and no others, the same one at each call."""
+    user = os.getuid() if hasattr(os, "getuid") else 0
+    key = hashlib.sha256("\n".join(libraries).encode()).hexdigest()[:16]
+    folder = Path(tempfile.gettempdir()) / f"taut-drivers-{user}-{key}"
     try:
         folder.mkdir(mode=0o700, exist_ok=True)
-        if folder.stat().st_uid != os.getuid():
+        if hasattr(os, "getuid") and folder.stat().st_uid != user:
             raise OSError
     except OSError:
         folder = Path(tempfile.mkdtemp(prefix="taut-drivers-"))
     for k, library in enumerate(libraries):
         (folder / f"{k}.icd").write_text(library + "\n")
-    os.environ["OCL_ICD_VENDORS"] = str(folder)
+    return folder

@@ -9,6 +9,7 @@ import numpy as np
 
 from . import _arrays, _options
 from ._arrays import ArrayLike, Floats
+from ._call import named
 from ._native import native
 from ._trace import EnergyLike
 
@@ -61,7 +62,8 @@ class Evaluator:
             "precision": precision,
             "device": _options.device(device),
         }
-        self._evaluator: Any = getattr(native(), f"Evaluator{self.dim}")(points, cells, options)
+        with named({}):
+            self._evaluator: Any = getattr(native(), f"Evaluator{self.dim}")(points, cells, options)
 
     def _points(self, name: str, x: Any) -> Any:
         return _arrays.points(name, x, (self.dim,), rows=self._count)

@@ -82,6 +82,20 @@ def read(path: PathLike, *, zone: int = 0, texcoord_set: int = 0) -> Mesh:
         Of a SU2 file of several, from 1.
     texcoord_set : int
         N of the TEXCOORD_N of a glTF model.
+
+    Raises
+    ------
+    FileError
+        `path` is that of the file.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile, taut
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "triangle.obj"
+    >>> taut.write(path, V=[[0, 0, 0], [1, 0, 0], [0, 1, 0]], F=[[0, 1, 2]])
+    >>> V, F = taut.read(path)
+    >>> V.shape, F.tolist()
+    ((3, 3), [[0, 1, 2]])
     """
     name = os.fspath(path)
     extension = Path(name).suffix.lower()
@@ -140,6 +154,14 @@ def write(
         Places of vertices.
     V, F : array-like
         Without `like`: a new OBJ file, or with `uv` a new glTF file.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile, taut
+    >>> path = pathlib.Path(tempfile.mkdtemp()) / "triangle.obj"
+    >>> taut.write(path, V=[[0, 0, 0], [1, 0, 0], [0, 1, 0]], F=[[0, 1, 2]], uv=[[0, 0], [1, 0], [0, 1]])
+    >>> taut.read(path).corner_uv.tolist()
+    [[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]
     """
     name = os.fspath(path)
     extension = Path(name).suffix.lower()
@@ -205,5 +227,12 @@ def _write_bare(name: str, points: Array, faces: Array) -> None:
 
 
 def devices() -> list[Device]:
-    """What OpenCL offers on this machine."""
+    """What OpenCL offers on this machine.
+
+    Examples
+    --------
+    >>> import taut
+    >>> any(d.refusal == "" for d in taut.devices())
+    True
+    """
     return [Device(**d) for d in native().devices()]

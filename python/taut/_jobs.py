@@ -9,6 +9,7 @@ from typing import Any, Generic, TypeVar
 
 from ._call import watched_by
 from ._native import native
+from .errors import ParameterError
 
 T = TypeVar("T")
 
@@ -73,4 +74,6 @@ def start(function: Callable[..., T], *args: Any, **keywords: Any) -> Job[T]:
     >>> job.result(timeout=60).certified
     True
     """
+    if not callable(function):
+        raise ParameterError(f"function: is {function!r}, but must be one, as taut.unwrap", field="function")
     return Job(function, args, keywords)

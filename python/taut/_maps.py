@@ -13,7 +13,16 @@ from ._call import ProgressLike, call
 from ._native import native
 from ._results import Certificate, Map
 from ._trace import EnergyLike
-from .errors import ParameterError
+from .errors import MeshError, ParameterError
+
+
+#: What else there is for surfaces that are no disk.
+_REMEDIES = {
+    "closed_surface": "cut=True does, and taut.atlas takes any surface",
+    "handles": "cut=True does, and taut.atlas takes any surface",
+    "several_components": "taut.atlas takes any surface",
+    "several_boundaries": "holes=True takes it as it is",
+}
 
 
 def unwrap(
@@ -124,7 +133,12 @@ def unwrap(
         options["initial"] = _arrays.points("initial", initial, (2,), rows=n)
     if polygons is not None:
         options["polygons"] = _arrays.numbers("polygons", polygons, m)
-    return call(native().unwrap, points, faces, options, progress=progress, make=Map.of)
+    try:
+        return call(native().unwrap, points, faces, options, progress=progress, make=Map.of)
+    except MeshError as e:
+        if e.fault in _REMEDIES:
+            e.args = (f"{e}; {_REMEDIES[e.fault]}",)
+        raise
 
 
 def _map_of(C: Any, x: Any, V: Any = None) -> tuple[Any, Any, int, Any]:
@@ -189,6 +203,13 @@ def quality(V: ArrayLike, C: ArrayLike, x: ArrayLike) -> dict[str, Any]:
     dict
         "isometric", "shape", "area": means, "uniform" and by "measure"; "stretch_l2", "stretch_linf", "area_ratio":
         "min", "max", "rms"; "stretch_l2_total"; "angular"; "scale"; "flips".
+
+    Examples
+    --------
+    >>> import taut
+    >>> q = taut.quality([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [[0, 0], [2, 0], [0, 1]])
+    >>> q["isometric"]["measure"], bool(q["flips"])
+    (6.25, True)
     """
     cells, points, dim, rest = _map_of(C, x, _given("V", V))
     found: dict[str, Any] = getattr(native(), f"quality{dim}")(rest, cells, points)

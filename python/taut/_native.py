@@ -26,7 +26,7 @@ def native() -> Any:
                 except ImportError as e:
                     if "OpenCL" not in str(e):
                         raise
-                    raise DeviceError(f"no OpenCL loader (libOpenCL.so.1): {e}") from e
+                    raise DeviceError(str(e)) from None
                 atexit.register(_close)
                 from . import _trace
 

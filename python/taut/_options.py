@@ -22,6 +22,15 @@ def surface(V: Any, F: Any, *, names: tuple[str, str] = ("V", "F"), planar: bool
     return points, _arrays.indices(names[1], F, (3,), len(points))
 
 
+def pair(name: str, mesh: Any, *, planar: bool = True) -> tuple[Any, Any]:
+    """Points and triangles of a surface that is one argument."""
+    try:
+        V, F = mesh
+    except (TypeError, ValueError):
+        raise ParameterError(f"{name}: must be a pair, (V, F)", field=name) from None
+    return surface(V, F, names=(f"V of {name}", f"F of {name}"), planar=planar)
+
+
 def pins(b: Any, bc: Any, springs: Any, count: int, dim: int) -> dict[str, Any]:
     """Pins and springs; a coordinate that is NaN is free."""
     options: dict[str, Any] = {}
@@ -52,7 +61,7 @@ def energies(
         options["attributes"] = _arrays.numbers("attributes", attributes, cells, columns=True)
     if directions is not None:
         options["directions"] = _arrays.points("directions", directions, (2, 3), rows=cells)
-    numbers = np.atleast_1d(np.asarray(parameters, dtype=np.float64))
+    numbers = np.atleast_1d(_arrays.array("parameters", parameters))
     if numbers.size:
         options["parameters"] = _arrays.numbers("parameters", numbers)
     return options

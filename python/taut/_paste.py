@@ -55,11 +55,22 @@ def paste(
     -------
     Pasted
         Unpacks as `V, F`.
+
+    Examples
+    --------
+    >>> import numpy as np, taut
+    >>> x, y = (a.ravel() for a in np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9)))
+    >>> a = np.array([9 * i + j for i in range(8) for j in range(8)])
+    >>> F = np.r_[np.c_[a, a + 1, a + 10], np.c_[a, a + 10, a + 9]]
+    >>> flat, hill = np.c_[x, y, 0 * x], np.c_[x, y, np.exp(-9 * (x * x + y * y))]
+    >>> V, _ = taut.paste((flat, F), (hill, F), 40, at=40, radius=1.0)
+    >>> bool(V[:, 2].max() > 0.5)
+    True
     """
-    V, F = _options.surface(*target, names=("V of target", "F of target"), planar=False)
-    source_V, source_F = _options.surface(*source, names=("V of source", "F of source"), planar=False)
+    V, F = _options.pair("target", target, planar=False)
+    source_V, source_F = _options.pair("source", source, planar=False)
     options: dict[str, Any] = {
-        "onto": int(_arrays.ids("onto", [onto], len(V))[0]),
+        "onto": _arrays.vertex("onto", onto, len(V)),
         "turn": turn,
         "scale": scale,
         "softness": softness,
@@ -73,8 +84,8 @@ def paste(
     if faces is not None:
         options["faces"] = _arrays.ids("faces", faces, len(source_F))
     elif at is not None and radius is not None:
-        options["at"] = int(_arrays.ids("at", [at], len(source_V))[0])
-        options["radius"] = float(radius)
+        options["at"] = _arrays.vertex("at", at, len(source_V))
+        options["radius"] = _arrays.number("radius", radius)
     else:
         raise ParameterError("faces: give them, or a vertex and a radius (at, radius)", field="faces")
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from . import _arrays
 from ._arrays import ArrayLike
+from ._call import named
 from ._native import native
 from ._results import Repaired
 
@@ -34,7 +35,8 @@ def repair(V: ArrayLike, F: ArrayLike, *, weld: float | bool = False, polygons: 
     faces = _arrays._shape("F", _arrays._numbers("F", F), (3,))
     options: dict[str, Any] = {"usual_weld": weld is True}
     if weld is not True and weld is not False:
-        options["weld"] = float(weld)
+        options["weld"] = _arrays.number("weld", weld)
     if polygons is not None:
         options["polygons"] = _arrays.numbers("polygons", polygons, len(faces))
-    return Repaired(**native().repair(points, faces, options))
+    with named({"weld_tolerance": "weld"}):
+        return Repaired(**native().repair(points, faces, options))

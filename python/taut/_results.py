@@ -337,8 +337,8 @@ class Frame:
 
     @staticmethod
     def of(d: dict[str, Any]) -> Frame:
-        x = d.pop("x")
-        x.flags.writeable = False
+        # The memory of the library, which nobody can make writable again.
+        x = np.asarray(memoryview(d.pop("x")).toreadonly())
         if d["outcome"] != "valid":
             kind = Infeasible if d["outcome"] == "infeasible" else NoMap
             raise kind(d["reason"] or d["outcome"], ids=d["ids"], fault=d["outcome"], notes=d["notes"])

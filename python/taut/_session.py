@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _arrays, _options
 from ._arrays import Array, ArrayLike, Floats
-from ._call import ProgressLike, conclude, control
+from ._call import ProgressLike, conclude, control, named, shown
 from ._native import native
 from ._results import Frame
 from ._trace import EnergyLike
@@ -95,7 +95,8 @@ class Session:
                 options["initial"] = _arrays.points("initial", initial, (self.dim,), rows=len(points))
         self._count = len(points)
         self._frame: Frame | None = None
-        self._open: Any = getattr(native(), name)(points, cells, options)
+        with named({}):
+            self._open: Any = getattr(native(), name)(points, cells, options)
 
     def __enter__(self) -> Session:
         return self
@@ -132,7 +133,7 @@ class Session:
     def _vertex(self, v: int) -> int:
         if np.ndim(v):
             raise ParameterError("v: is an array, but must be one vertex; move() takes several", field="v")
-        return int(_arrays.ids("v", [v], self._count)[0])
+        return _arrays.vertex("v", v, self._count)
 
     def _place(self, x: ArrayLike, nan: bool = False) -> Floats:
         """Coordinates of one vertex."""
@@ -155,12 +156,12 @@ class Session:
 
     def pin_u(self, v: int, u: float) -> Session:
         """Pins the first coordinate of a vertex alone."""
-        self._session.pin_coordinate(self._vertex(v), 0, float(u))
+        self._session.pin_coordinate(self._vertex(v), 0, _arrays.number("u", u))
         return self
 
     def pin_v(self, v: int, value: float) -> Session:
         """Pins the second coordinate of a vertex alone."""
-        self._session.pin_coordinate(self._vertex(v), 1, float(value))
+        self._session.pin_coordinate(self._vertex(v), 1, _arrays.number("value", value))
         return self
 
     def move(self, vs: ArrayLike, xs: ArrayLike | Callable[[Any], Any]) -> Session:
@@ -177,7 +178,7 @@ class Session:
         """Draws a vertex to a place, instead of another spring that it has."""
         vertex = self._vertex(v)
         place = self._place(x)
-        self._session.spring(vertex, place, float(weight))
+        self._session.spring(vertex, place, _arrays.number("weight", weight))
         return self
 
     def release(self, vs: ArrayLike = None) -> Session:
@@ -195,12 +196,17 @@ class Session:
 
     def restore(self, snapshot: Any) -> Session:
         """Goes back to a snapshot of this session."""
+        if not isinstance(snapshot, tuple) or len(snapshot) != 2:
+            raise ParameterError(f"snapshot: is {snapshot!r}, but must be what snapshot() returned", field="snapshot")
         self._session.restore(snapshot[0])
         self._frame = snapshot[1]
         return self
 
     def solve(self, *, time: float | None = None, steps: int | None = None, progress: ProgressLike = None) -> Frame:
         """Goes on for so many seconds or steps, at least a step; without them until it has converged.
+
+        progress : callable or True, optional
+            As in `unwrap`.
 
         Raises
         ------
@@ -213,5 +219,9 @@ class Session:
             self._frame = Frame.of(d)
             return self._frame
 
-        ended, found = self._session.solve(math.inf if time is None else time, steps or 0, progress or None, control())
-        return conclude(ended, found, make)
+        seconds = math.inf if time is None else _arrays.number("time", time)
+        if steps is not None and (steps != steps // 1 or steps < 1):
+            raise ParameterError(f"steps: is {steps}, but must be a whole number, 1 or more", field="steps")
+        with shown(progress) as line:
+            told = self._session.solve(seconds, int(steps or 0), line, control())
+        return conclude(told, make)

@@ -240,7 +240,7 @@ class Energy:
         for dim in made:
             recording = getattr(native(), f"Recording{dim}")()
             try:
-                recording.record(lambda r=recording, d=dim: self.function(Element(r, d)))
+                recording.record(lambda r=recording, d=dim: _one(self.function(Element(r, d))))
                 made[dim] = recording
             except Exception as e:
                 self._faults[dim] = e
@@ -261,6 +261,13 @@ class Energy:
         dim = len(matrix)
         numbers = (np.asarray(a, dtype=np.float64).reshape(-1) for a in (attributes, parameters))
         return float(getattr(native(), f"value_{dim}")(self.native(dim), matrix, measure, *numbers))
+
+
+def _one(made: Any) -> Any:
+    """What a function of an element has returned, if it is a number of it."""
+    if made is None:
+        raise TraceError("the energy returns None; return a value of the element, as s.S.norm2()")
+    return made
 
 
 def _restore(kind: Any, function: Any, barrier: bool) -> Any:

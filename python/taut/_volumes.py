@@ -115,7 +115,11 @@ def deform(
     }
     if slides is not None:
         options["slide_b"] = _arrays.ids("slides", slides[0], len(points))
-        options["slide_normals"] = _arrays.points("slides", slides[1], (dim,), rows=len(options["slide_b"]))
+        normals = _arrays.points("slides", slides[1], (dim,), rows=len(options["slide_b"]))
+        zero = np.flatnonzero(~normals.any(1))
+        if len(zero):
+            raise ParameterError(f"slides: row {zero[0]} has a normal of zeros", field="slides", ids=zero[:1])
+        options["slide_normals"] = normals
     if rest is not None:
         options["rest"] = _arrays.points("rest", rest, (2, 3), rows=len(points))
     if initial is not None:
@@ -168,6 +172,13 @@ def smooth(
     -------
     Map
         `report["before"]` and `report["after"]` have the shapes of the elements.
+
+    Examples
+    --------
+    >>> import taut
+    >>> square = [[0, 0], [2, 0], [2, 2], [0, 2], [0.3, 0.4]]
+    >>> taut.smooth(square, [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]).x[4].round(3).tolist()
+    [1.0, 1.0]
     """
     points, blocks, dim = _blocks(V, C)
     options = {
@@ -213,6 +224,14 @@ def untangle(
         With the proof that no map exists.
     NoMap
         Where none was found; `best` has the fewest inverted elements, `ids` are these.
+
+    Examples
+    --------
+    >>> import taut
+    >>> square = [[0, 0], [2, 0], [2, 2], [0, 2], [9, 9]]  # the last one lies outside
+    >>> C = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+    >>> taut.certify(C, square).flipped.tolist(), bool(taut.certify(C, taut.untangle(square, C, [0, 1, 2, 3]).x))
+    ([1, 2], True)
     """
     points, blocks, dim = _blocks(X, C)
     options: dict[str, Any] = {
@@ -258,6 +277,13 @@ def shell(
     -------
     Map
         No triangle has collapsed; the surface may pass through itself.
+
+    Examples
+    --------
+    >>> import numpy as np, taut
+    >>> V = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
+    >>> taut.shell(V, [[0, 1, 2], [0, 2, 3]], [0, 1, 2], V[:3], thickness=0.1).x.round(3).tolist()[3]
+    [0.0, 1.0, 0.0]
     """
     points, faces = _options.surface(V, F, planar=False)
     options = {

@@ -6,8 +6,10 @@ All derive from `TautError`, but `Interrupted`, which is a `KeyboardInterrupt`.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
+
+from . import _drivers
 
 
 class TautError(RuntimeError):
@@ -77,11 +79,14 @@ class DeviceError(TautError):
 
     def __init__(self, message: str = "", **more: Any) -> None:
         if not self.remedy and "no OpenCL platform is installed" in message:
-            self.remedy = (
-                "install an OpenCL driver: `pip install taut[pocl]` (any CPU), `apt install pocl-opencl-icd`, "
-                "or `conda install -c conda-forge pocl`"
-            )
+            self.remedy = _drivers.remedy()
             message = f"there is no OpenCL device; {self.remedy}\n{message}"
+        elif not self.remedy and "libOpenCL" in message:
+            self.remedy = (
+                "install the loader of OpenCL drivers: `apt install ocl-icd-libopencl1`, "
+                "or `conda install -c conda-forge ocl-icd`"
+            )
+            message = f"there is no OpenCL loader; {self.remedy}\n{message}"
         super().__init__(message, **more)
 
 
@@ -110,17 +115,34 @@ class Infeasible(NoMap):
         self.proof = message
 
 
-class Cancelled(TautError):
+class _WithBest(BaseException):
+    """An end before the end of the work: what there is by then, or what the work still comes to."""
+
+    _best: Any = None
+    _later: Callable[[], Any] | None = None
+
+    @property
+    def best(self) -> Any:
+        """The best valid result by then, or None. Where the work had not ended within 0.4 s, it is waited for."""
+        if self._later is not None:
+            self._best = self._later()
+            self._later = None
+        return self._best
+
+    def __reduce__(self) -> Any:
+        return type(self), self.args, {**self.__dict__, "_later": None}
+
+
+class Cancelled(_WithBest, TautError):
     """A job that was cancelled; `best` is the best valid result by then, or None."""
 
-    def __init__(self, message: str = "", *, best: Any = None, **more: Any) -> None:
-        super().__init__(message, **more)
-        self.best = best
+    def __init__(self, message: str = "", *, best: Any = None, later: Callable[[], Any] | None = None, **more: Any) -> None:
+        super().__init__(message, _best=best, _later=later, **more)
 
 
-class Interrupted(KeyboardInterrupt):
+class Interrupted(_WithBest, KeyboardInterrupt):
     """Ctrl-C during a call; `best` is the best valid result by then, or None."""
 
-    def __init__(self, message: str = "", *, best: Any = None) -> None:
+    def __init__(self, message: str = "", *, best: Any = None, later: Callable[[], Any] | None = None) -> None:
         super().__init__(message)
-        self.best = best
+        self._best, self._later = best, later

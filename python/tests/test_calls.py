@@ -16,7 +16,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import bowl_of
+from conftest import bowl_of, torus_of
 
 import taut
 
@@ -64,7 +64,10 @@ def interrupt_after(seconds):
     return timer
 
 
-@pytest.mark.parametrize("moment", [0.002, 0.02, 0.06, 0.15, 0.3])
+MOMENTS = np.linspace(0.001, 0.4, 50) if os.environ.get("TAUT_LONG_TESTS") else [0.002, 0.02, 0.06, 0.15, 0.3]
+
+
+@pytest.mark.parametrize("moment", MOMENTS)
 def test_ctrl_c_ends_a_call_soon_and_leaves_all_as_it_was(large_bowl, moment):
     start = time.monotonic()
     timer = interrupt_after(moment)
@@ -80,6 +83,30 @@ def test_ctrl_c_ends_a_call_soon_and_leaves_all_as_it_was(large_bowl, moment):
     timer.join()
     V, F = bowl_of(8)
     assert taut.unwrap(V, F).certified
+
+
+def test_ctrl_c_during_an_atlas_of_a_rough_surface_has_a_result():
+    V, F = torus_of(200, 100)
+    V += np.random.default_rng(0).normal(0, 0.012, V.shape)
+    start = time.monotonic()
+    timer = interrupt_after(0.15)
+    with pytest.raises(taut.Interrupted) as e:
+        while True:
+            taut.atlas(V, F)
+    assert time.monotonic() - start < 0.15 + 1.0
+    timer.join()
+    made = e.value.best  # waits where the work had not ended yet
+    assert len(made.faces) == len(F) and not made.complete
+    assert len(taut.certify(made.faces, made.uv).flipped) == 0
+
+
+def test_the_best_result_of_work_that_is_left_alone_is_waited_for_once():
+    asked = []
+    for kind in (taut.Interrupted, taut.Cancelled):
+        e = kind("ended", later=lambda: asked.append(1) or "best")
+        copied = pickle.loads(pickle.dumps(kind("ended", best=7, later=lambda: "not copied")))
+        assert e.best == e.best == "best" and copied.best == 7 and str(copied) == "ended"
+    assert len(asked) == 2
 
 
 def test_a_handler_of_another_signal_may_raise(large_bowl):
@@ -149,8 +176,20 @@ def test_functions_are_pickled_and_run_by_spawn(bowl):
         assert e.value.field == "F"
 
 
+def test_the_first_calls_of_a_process_may_be_made_at_a_time():
+    done = run_python("""
+        import concurrent.futures, taut
+        V, F = [[0, 0, 0], [1, 0, 0], [1, 1, 0.5], [0, 1, 0]], [[0, 1, 2], [0, 2, 3]]
+        with concurrent.futures.ThreadPoolExecutor(4) as pool:
+            print(all(pool.map(lambda _: taut.unwrap(V, F).certified, range(4))))
+    """)
+    assert done.stdout.strip() == "True", done.stderr
+
+
 def test_without_a_driver_the_first_call_says_what_to_install(tmp_path):
     done = run_python("""
+        import sys
+        sys.modules.update(pocl_binary_distribution=None, pyopencl=None)  # as where pip has brought none
         import taut
         print(taut.certify([[0, 1, 2]], [[0, 0], [1, 0], [0, 1]]).elements)
         try:

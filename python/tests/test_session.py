@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import gc
+import os
 import resource
 
 import numpy as np
@@ -96,7 +97,7 @@ def test_memory_does_not_grow_with_sessions(bowl):
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
 
     before = peak_after(10)
-    assert peak_after(40) - before < 8192  # KiB
+    assert peak_after(190 if os.environ.get("TAUT_LONG_TESTS") else 40) - before < 8192  # KiB
 
 
 def test_a_session_goes_on_from_a_map_that_is_given(bowl):

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstddef>
 #include <cstdlib>
+#include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -34,6 +35,10 @@ namespace taut
 std::vector<impl::listed_device> devices(const device_requirements& needs)
 {
     impl::refuse_fork("listing devices");
+    // Loaders and drivers set themselves up at the first question, and not all of them can be asked by several threads
+    // at a time then.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
     std::vector<impl::listed_device> all;
     for (const auto& platform : boost::compute::system::platforms())
     {
