@@ -85,11 +85,20 @@ protected:
         };
     }
 
-    /// Maps all charts, in `steps` each at most. exactly: nearly to the limit of rounding, so that what can be flat is.
-    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps, bool exactly = false)
+    enum class precise
+    {
+        usual,
+        exactly, ///< nearly to the limit of rounding, so that what can be flat is
+        rough    ///< see flatten_tuning::rough
+    };
+
+    /// Maps all charts, in `steps` each at most.
+    flattened_charts flatten(const chart_mesh& charts, std::span<const vec2> initial, int steps,
+                             precise how = precise::usual)
     {
         flatten_params params;
-        if (exactly) params.tolerance = std::min(params.tolerance, 1e-9);
+        if (how == precise::exactly) params.tolerance = std::min(params.tolerance, 1e-9);
+        params.tuning.rough = how == precise::rough;
         params.max_iterations = std::min(params.max_iterations, steps);
         params.initial = initial;
         params.limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("flatten")};
@@ -265,15 +274,18 @@ protected:
     /// Parts these charts, one flag each, where they lie on themselves. Returns the flags of those that are unfit then.
     std::vector<char> part_overlaps(std::vector<char> bad);
 
-    /// Maps these charts anew with borders kept apart (roughly: in 100 steps). Clears the flags where that succeeds.
+    /// Maps these charts anew with borders kept apart. Clears the flags where that succeeds.
+    /// roughly: in 100 steps, and not the large ones, each step of which costs what few cuts save
     void keep_apart(std::vector<char>& bad, bool roughly = false)
     {
-        constexpr idx most = 32; // one by one: more would take long
+        constexpr idx most = 32;          // one by one: more would take long
+        constexpr idx rough_most = 20000; // triangles
         const double begin = budget_.total();
         idx mended = 0, tried = 0;
         for (std::size_t k = 0; k < bad.size(); ++k)
         {
             if (!bad[k] || !report_.complete || tried == most) continue;
+            if (roughly && charts_->first_cell[k + 1] - charts_->first_cell[k] > rough_most) continue;
             ++tried;
             const idx first = charts_->first_vertex[k], end = charts_->first_vertex[k + 1];
             std::vector<vec3> points(charts_->surface.points().begin() + first,
@@ -287,7 +299,12 @@ protected:
                                        .holes = true,
                                        .no_overlap = true,
                                        .limits = {std::max(budget_.left(), budget::seconds(1e-6)), asking("flatten")}};
-            if (roughly) params.solve.stopping.max_iterations = 100;
+            if (roughly)
+            {
+                params.solve.stopping = rough_stopping();
+                params.solve.stopping.max_iterations = 100;
+                params.precision = rough_precision(queue_);
+            }
             const mesh<triangle> chart(std::move(points), std::move(cells));
             if (!check(chart, {.one_boundary = false}).empty()) continue;
             const auto map = parameterize(queue_, chart, params);

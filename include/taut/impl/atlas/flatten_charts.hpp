@@ -10,9 +10,24 @@
 #include <taut/impl/compute/queue.hpp>
 #include <taut/impl/compute/queue_counters.hpp>
 #include <taut/impl/core/observer.hpp>
+#include <taut/impl/objective/precision.hpp>
+#include <taut/impl/solve/params.hpp>
 
 namespace taut::impl
 {
+
+/// Stopping criteria of maps of a rough surface: a step gains less than a hundredth of what the map has above an
+/// isometry.
+inline solve::impl::stopping_params rough_stopping()
+{
+    return {.decrease_tolerance = 1e-2, .tuning = {.decrease_count = 1}};
+}
+
+/// Precision of maps of a rough surface: its needles are more than single precision holds.
+inline precision rough_precision(const queue& q)
+{
+    return q.device().has_fp64() ? precision::fp64 : precision::automatic;
+}
 
 /// Tuning of flatten_charts().
 struct flatten_tuning
@@ -20,6 +35,10 @@ struct flatten_tuning
     /// Maximum cost of the factorization of a chart in millions of multiplications; above, the chart is solved by
     /// `parameterize`. The default corresponds to about 5,000 triangles, where both take as long.
     double largest = 30;
+
+    /// True for charts of a rough surface, on which coarser levels say little about finer ones: large charts begin with
+    /// a barycentric map, and end where a step gains less than a hundredth of what they have above an isometry.
+    bool rough = false;
 };
 
 } // namespace taut::impl

@@ -215,6 +215,14 @@ private:
             return steps <= 4 * params_.max_iterations && proceed();
         };
         params.solve.stopping.max_iterations = params_.max_iterations;
+        if (params_.tuning.rough)
+        {
+            params.start = start_method::barycentric;
+            params.barycentric.stretch_rounds = 1;
+            params.precision = rough_precision(queue_);
+            params.solve.stopping = rough_stopping();
+            params.solve.stopping.max_iterations = params_.max_iterations;
+        }
         try
         {
             auto map = parameterize(queue_, work_[k].chart->surface, params);

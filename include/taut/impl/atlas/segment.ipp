@@ -41,15 +41,29 @@ public:
             const bool sewn = unite_round(unions::slits);
             if (!cut_round() && !sewn) break;
         }
-        for (int round = 0; round < params_.tuning.unite_rounds && proceed(round) && unite_round(unions::all); ++round)
-        {
-        }
+        unite_all();
         if (params_.tuning.unite_rounds > 0 && proceed(params_.tuning.unite_rounds)) unite_round(unions::small);
         settle();
         return result();
     }
 
 private:
+    /// Unites pairs in rounds. Each flattens most of the surface: where there are very many charts, one that unites few
+    /// of them is the last.
+    void unite_all()
+    {
+        constexpr std::ptrdiff_t many = 1000, part = 15;
+        auto left = std::count_if(charts_.begin(), charts_.end(), [](const record& r) { return !r.triangles.empty(); });
+        for (int round = 0; round < params_.tuning.unite_rounds && proceed(round); ++round)
+        {
+            const idx before = report_.united;
+            if (!unite_round(unions::all)) return;
+            const std::ptrdiff_t united = report_.united - before;
+            if (left > many && united * part < left) return;
+            left -= united;
+        }
+    }
+
     /// Computes the seams of an initial set of charts. The estimate is about twice the distortion of maps on smooth
     /// surfaces; on others it is calibrated by some charts.
     void cut_by_estimate()

@@ -139,10 +139,8 @@ private:
                 sew_up(std::vector<char>(c_.energy_.size(), 1), false, limits);
         }
         if (!c_.report_.complete) return lay_unfinished();
-        if (part)
-            best->bad = c_.part_overlaps(std::move(best->bad));
-        else if (!best->holds)
-            c_.keep_apart(best->bad, rough_);
+        if (!part && !best->holds) c_.keep_apart(best->bad, rough_);
+        if (part || rough_) best->bad = c_.part_overlaps(std::move(best->bad));
         if (!best->holds && !rough && !part) best->bad.assign(best->bad.size(), 1);
         best->bad.resize(c_.energy_.size(), 0);
         for (std::size_t k = 0; k < c_.energy_.size(); ++k)
@@ -202,7 +200,8 @@ private:
         c_.charts_.emplace(cut_charts(c_.mesh_, c_.facets_, c_.seam_));
         // Of a rough surface the bound is out of reach, and the last digits take most of the steps.
         rough_ = cutting.rough();
-        auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(), !rough_);
+        auto flat = c_.flatten(*c_.charts_, {}, std::numeric_limits<int>::max(),
+                               rough_ ? flat_charts::precise::rough : flat_charts::precise::exactly);
         c_.energy_.clear();
         for (const auto& chart : flat.charts) c_.energy_.push_back(chart.energy);
         c_.flat_ = std::move(flat.uv);
@@ -337,8 +336,12 @@ private:
         params.tuning.unite_rounds = std::max(params.tuning.unite_rounds, 6); // few charts, whatever they are like
         params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
         params.limits = {std::max(c_.budget_.left(), budget::seconds(1e-6)), c_.asking("charts")};
+        // Of large charts that are cut anyway, and of those that many steps would bring no further.
         const auto maps = [this](const chart_mesh& charts, std::span<const vec2> start)
-        { return c_.flatten(charts, start, std::numeric_limits<int>::max()); };
+        {
+            return c_.flatten(charts, start, std::numeric_limits<int>::max(),
+                              start.empty() ? flat_charts::precise::rough : flat_charts::precise::usual);
+        };
         const auto made = segment_surface(part.charts.surface, f, maps_by(maps), params);
         for (std::size_t s = 0; s < made.seam.size(); ++s)
             if (made.seam[s]) c_.seam_[part.origin(s)] = 1;
