@@ -50,6 +50,11 @@ def write(path, text):
         f.write(text)
 
 
+# Where Debian has OpenFOAM's own files; elsewhere its bashrc says it.
+if os.path.isdir("/usr/share/openfoam/etc"):
+    os.environ.setdefault("WM_PROJECT_DIR", "/usr/share/openfoam")
+
+
 def run(command, folder, log):
     """Seconds, processor seconds and peak memory in MB of a program and its children; None where it failed."""
     with open(os.path.join(folder, log), "w") as out:

@@ -6,6 +6,7 @@ import os
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
@@ -348,6 +349,116 @@ def case_smooth():
     for p, q in zip(b.points, x):
         assert all(a == c for a, c, side in zip(p, q, (1, 1, 4)) if a in (0, side)), (p, q)
     run("smooth", "bar.mesh", "-o", "fixed.mesh", "--boundary", "fixed")
+
+
+def case_interfaces():
+    """Interfaces between regions and labelled faces are kept as by one process, whatever the format."""
+    b = bar(2)
+    for v, p in enumerate(b.points):
+        if v // 9 == 4:
+            p[2] = 2.0  # the plane in the middle
+        if v < 9 and v % 3 == 1:
+            p[0] = 0.5  # a line on one end
+    regions = [1 + (max(t) >= 9 * 5) for t in b.cells]
+    faces = [(f, 3 if sum(b.points[v][0] for v in f) < 1.5 else 4) for f in b.faces(b.start)]
+    cells = [(tuple(t), r) for t, r in zip(b.cells, regions)]
+    with open("bar.mesh", "w") as f:
+        f.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(b.points)}\n")
+        f.writelines("%.17g %.17g %.17g 0\n" % tuple(p) for p in b.points)
+        for name, some in (("Tetrahedra", cells), ("Triangles", faces)):
+            f.write(f"{name}\n{len(some)}\n")
+            f.writelines(" ".join(str(v + 1) for v in c) + f" {r}\n" for c, r in some)
+        f.write("End\n")
+    with open("bar.msh", "w") as f:
+        f.write(f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(b.points)}\n")
+        f.writelines("%d %.17g %.17g %.17g\n" % (k + 1, *p) for k, p in enumerate(b.points))
+        f.write(f"$EndNodes\n$Elements\n{len(cells) + len(faces)}\n")
+        for k, (c, r) in enumerate(cells + faces):
+            f.write(f"{k + 1} {4 if len(c) == 4 else 2} 2 {r} {r} " + " ".join(str(v + 1) for v in c) + "\n")
+        f.write("$EndElements\n")
+    for name, rows in (("bar.node", [f"{len(b.points)} 3 0 0"] + ["%d %.17g %.17g %.17g" % (v, *p)
+                                                                 for v, p in enumerate(b.points)]),
+                       ("bar.ele", [f"{len(cells)} 4 1"] + ["%d %d %d %d %d %d" % (k, *c, r)
+                                                            for k, (c, r) in enumerate(cells)]),
+                       ("bar.face", [f"{len(faces)} 1"] + ["%d %d %d %d %d" % (k, *c, r)
+                                                           for k, (c, r) in enumerate(faces)])):
+        with open(name, "w") as f:
+            f.write("\n".join(rows) + "\n")
+    with open("bar.su2", "w") as f:
+        f.write(f"NDIME= 3\nNELEM= {len(cells)}\n")
+        f.writelines("10 %d %d %d %d\n" % c for c, _ in cells)
+        f.write(f"NPOIN= {len(b.points)}\n")
+        f.writelines("%.17g %.17g %.17g\n" % tuple(p) for p in b.points)
+        f.write("NMARK= 2\n")
+        for label in (3, 4):
+            some = [face for face, r in faces if r == label]
+            f.write(f"MARKER_TAG= m{label}\nMARKER_ELEMS= {len(some)}\n")
+            f.writelines("5 %d %d %d\n" % tuple(face) for face in some)
+    data = ("region", [r for _, r in cells + faces])
+    all_cells = [c for c, _ in cells + faces]
+    vtu_appended("bar.vtu", b.points, all_cells, *data)
+    tolerance = ("--tolerance", "1e-8", "--stats", "s.json")
+    for k, name in enumerate(("bar.mesh", "bar.msh", "bar.node", "bar.su2", "bar.vtu")):
+        out = "out" + os.path.splitext(name)[1]
+        serial("smooth", name, "-o", out, *tolerance)
+        one = stats("s.json")["energy"]
+        run("smooth", name, "-o", out, *tolerance, processes=2 + k % 2)
+        assert stats("s.json")["read"] == "by ranges", (name, stats("s.json")["read"])
+        near(stats("s.json")["energy"], one, 6)  # the serial one computes in float
+        if name == "bar.mesh":
+            for p, q, v in zip(b.points, points_of(out), range(len(b.points))):
+                assert v // 9 != 4 or q[2] == 2, q
+                assert not (v < 9 and v % 3 == 1) or q[0] == 0.5, q
+            run("smooth", name, "-o", "free.mesh", "--interfaces", "free", *tolerance)
+            assert stats("s.json")["energy"] < one
+            assert any(q[2] != 2 for q in points_of("free.mesh")[9 * 4:9 * 5])
+    # One that process 0 reads, and one in pieces.
+    with open("text.vtk", "w") as f:
+        f.write(f"# vtk DataFile Version 3.0\nbar\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS {len(b.points)} double\n")
+        f.writelines("%.17g %.17g %.17g\n" % tuple(p) for p in b.points)
+        f.write(f"CELLS {len(all_cells)} {sum(len(c) + 1 for c in all_cells)}\n")
+        f.writelines(" ".join(map(str, (len(c), *c))) + "\n" for c in all_cells)
+        f.write(f"CELL_TYPES {len(all_cells)}\n")
+        f.writelines("10\n" if len(c) == 4 else "5\n" for c in all_cells)
+        f.write(f"CELL_DATA {len(all_cells)}\nSCALARS region int 1\nLOOKUP_TABLE default\n")
+        f.writelines(f"{r}\n" for r in data[1])
+    run("smooth", "text.vtk", "-o", "out.vtk", *tolerance)
+    near(stats("s.json")["energy"], one, 6)
+    for k in range(2):
+        mine = [c for c in range(len(all_cells)) if c % 2 == k]
+        used = sorted({v for c in mine for v in all_cells[c]})
+        vtu_appended(f"piece{k}.vtu", [b.points[v] for v in used],
+                     [tuple(used.index(v) for v in all_cells[c]) for c in mine], "region", [data[1][c] for c in mine])
+    with open("bar.pvtu", "w") as f:
+        f.write('<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid GhostLevel="0"><Piece Source="piece0.vtu"/>'
+                '<Piece Source="piece1.vtu"/></PUnstructuredGrid></VTKFile>\n')
+    run("smooth", "bar.pvtu", "-o", "out.pvtu", *tolerance)
+    near(stats("s.json")["energy"], one, 6)
+
+
+def vtu_appended(path, points, cells, name, values):
+    """A grid with raw appended arrays, and integers of its cells."""
+    ends = []
+    for c in cells:
+        ends.append(len(c) + (ends[-1] if ends else 0))
+    arrays = [("Points", "Float64", 3, "points", struct.pack(f"<{3 * len(points)}d", *(x for p in points for x in p)))]
+    for key, numbers in (("connectivity", [v for c in cells for v in c]), ("offsets", ends),
+                         ("types", [10 if len(c) == 4 else 5 for c in cells])):
+        arrays.append(("Cells", "Int64", 1, key, struct.pack(f"<{len(numbers)}q", *numbers)))
+    arrays.append(("CellData", "Int64", 1, name, struct.pack(f"<{len(values)}q", *values)))
+    text, at, last = "", 0, None
+    for section, kind, n, key, data in arrays:
+        if section != last:
+            text += (f"</{last}>" if last else "") + f"<{section}>"
+        text += f'<DataArray type="{kind}" Name="{key}" NumberOfComponents="{n}" format="appended" offset="{at}"/>'
+        at, last = at + 8 + len(data), section
+    with open(path, "wb") as f:
+        f.write(('<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">'
+                 f'<UnstructuredGrid><Piece NumberOfPoints="{len(points)}" NumberOfCells="{len(cells)}">{text}</{last}>'
+                 '</Piece></UnstructuredGrid><AppendedData encoding="raw">_').encode())
+        for *_, data in arrays:
+            f.write(struct.pack("<Q", len(data)) + data)
+        f.write(b"</AppendedData></VTKFile>\n")
 
 
 def case_faults():

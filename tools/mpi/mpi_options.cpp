@@ -88,7 +88,7 @@ void declare_deform(CLI::App& app, mpi_options& o)
 void declare_smooth(CLI::App& app, mpi_options& o)
 {
     tools::declare_smooth(app, o.shape);
-    leave_out(app, {"--picture", "--cut", "--interfaces"});
+    leave_out(app, {"--picture", "--cut"});
     declare_solver(app, o);
     declare_checkpoint(app, o);
     say(app, meshes);

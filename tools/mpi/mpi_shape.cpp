@@ -149,6 +149,8 @@ private:
             dist::smooth_params how{.boundary = shape_.boundary,
                                     .worst_exponent = shape_.worst_exponent,
                                     .fixed = source_->fixed,
+                                    .regions = source_->regions_of(piece),
+                                    .faces = source_->kept.faces,
                                     .solver = options_.solver,
                                     .queue = q};
             for (const auto& x : from)

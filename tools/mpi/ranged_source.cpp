@@ -83,6 +83,7 @@ public:
         fixed = std::move(held.fixed);
         notes = std::move(held.notes);
         if (volume_->single) round_pins();
+        if (shape_.smoothing && !shape_.free_interfaces) kept = volume_->labelled();
         report.pins = static_cast<std::size_t>(held.pinned);
         report.springs = static_cast<std::size_t>(held.springs);
         piece = std::move(volume_->piece);

@@ -30,9 +30,23 @@ public:
     dist::mesh_piece<Element> piece;
     dist::constraints<Element> pins;
     std::vector<std::int64_t> fixed; ///< vertices of groups that are held, for smoothing
+    dist::impl::labelled_cells kept; ///< regions of cells and labelled faces that smoothing keeps; or none
+    std::int64_t first_region = 0;   ///< the number of the first of these among the owners of the piece
     points initial;                  ///< the shape to begin with, if it is not that at rest; empty: it is
     std::vector<std::string> notes;  ///< of process 0
     bool mixed = false;              ///< there are cells other than simplices
+
+    /// Regions of the cells of a piece of this source.
+    std::vector<std::int64_t> regions_of(const dist::mesh_piece<Element>& of) const
+    {
+        std::vector<std::int64_t> regions;
+        for (std::size_t c = 0; c < of.cells.size() && !kept.regions.empty(); ++c)
+        {
+            const auto cell = of.owners.empty() ? static_cast<std::int64_t>(c) : of.owners[c] - first_region;
+            regions.push_back(kept.regions[static_cast<std::size_t>(cell)]);
+        }
+        return regions;
+    }
 
     /// Cells of this process, by its own numbers, that are not known to be valid.
     virtual std::vector<idx> doubtful(const points& x) const = 0;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <optional>
 #include <utility>
 
 #include <taut/impl/dist_io/deal.hpp>
+#include <taut/impl/io/cell_faces.hpp>
 #include <taut/impl/io/make_untangle_problem.hpp>
 #include <taut/impl/io/pins.hpp>
 #include <taut/impl/io/read_volume.hpp>
@@ -54,6 +57,7 @@ public:
             });
         this->mixed = all_.shared(this->mixed);
         this->piece = dealt(input_ ? &*input_ : nullptr);
+        if (shape_.smoothing && !shape_.free_interfaces) keep_labels();
         this->initial = dist::impl::spread(all_, begin_with);
     }
 
@@ -136,6 +140,40 @@ private:
     {
         return dist::impl::dealt<Element>(all_, input ? &input->simplices() : nullptr,
                                           input && this->mixed ? &input->parts() : nullptr);
+    }
+
+    /// Regions of the cells that were dealt, and labelled faces, of process 0. Collective.
+    void keep_labels()
+    {
+        std::vector<idx> regions;
+        all_.together(
+            [&]
+            {
+                if (all_.rank() != 0) return;
+                const auto numbers = io::impl::region_numbers(file_);
+                std::size_t number = 0;
+                for (const auto& block : file_.cells)
+                    for (std::size_t c = 0; c < block.size(); ++c, ++number)
+                    {
+                        const int dimension = io::impl::shape_of(block.kind).dimension;
+                        if (dimension == D) regions.push_back(numbers[number]);
+                        if (dimension != D - 1 || numbers[number] == 0) continue;
+                        auto& face = this->kept.faces.emplace_back();
+                        const auto corners = block.cell(c);
+                        std::copy(corners.begin(), corners.end(), face.vertices.begin());
+                        face.label = numbers[number];
+                    }
+                if (std::adjacent_find(regions.begin(), regions.end(), std::not_equal_to<>()) == regions.end())
+                    regions.clear();
+            });
+        regions = all_.gathered(regions); // process 0 alone has any
+        const auto& owners = this->piece.owners;
+        const auto cells = static_cast<std::int64_t>(this->piece.cells.size());
+        const std::int64_t before = all_.before(cells);
+        if (regions.empty() || cells == 0) return;
+        this->first_region = owners.empty() ? before : owners.front();
+        const auto end = owners.empty() ? before + cells : owners.back() + 1;
+        this->kept.regions.assign(regions.begin() + this->first_region, regions.begin() + end);
     }
 
     void read_targets(mpi_report& report)

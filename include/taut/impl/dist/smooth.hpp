@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -10,18 +9,7 @@
 
 #include <taut/impl/constrain/smooth_boundary.hpp>
 #include <taut/impl/dist/session.hpp>
-
-namespace taut::dist::impl
-{
-
-/// A face (in the plane an edge) with a label.
-struct labelled_face
-{
-    std::array<std::int64_t, 4> vertices{-1, -1, -1, -1}; ///< ids of its corners, around; -1 behind the last
-    std::int64_t label = 0;                               ///< 0: none
-};
-
-} // namespace taut::dist::impl
+#include <taut/impl/processes/labelled_face.hpp>
 
 namespace taut::dist
 {

@@ -140,6 +140,7 @@ private:
                  const std::int64_t physical = tags > 0 ? w.integer(3) : 0, entity = tags > 1 ? w.integer(4) : 0;
                  c.take(w, static_cast<std::size_t>(3 + tags), wedge_order::turned);
                  const int d = c.dimension();
+                 c.labels = {physical, entity};
                  const auto named = physical != 0 ? names.find({d, physical}) : names.end();
                  if (named != names.end())
                      c.groups.push_back(groups->number({named->second, d, false}));
@@ -186,18 +187,21 @@ private:
             const auto kind = kind_of(head.integer(2));
             if (n < 0 || n > end - at) throw unsuited("a section is too short");
             std::vector<int> groups;
-            for (const std::int64_t p : physical_[{dimension, tag}]) groups.push_back(physical(dimension, p));
+            const auto& tags = physical_[{dimension, tag}];
+            for (const std::int64_t p : tags) groups.push_back(physical(dimension, p));
             if (n > 0)
                 groups.push_back(layout_.groups->tagged("entity:" + std::to_string(dimension), tag, dimension, true));
-            layout_.sections.push_back({.what = line_section::content::cells,
-                                        .text = 0,
-                                        .items = {at, n},
-                                        .cell = [kind, groups](const tokens& w, line_cell& c)
-                                        {
-                                            c.kind = kind;
-                                            c.take(w, 1, wedge_order::turned);
-                                            c.groups = groups;
-                                        }});
+            layout_.sections.push_back(
+                {.what = line_section::content::cells,
+                 .text = 0,
+                 .items = {at, n},
+                 .cell = [kind, groups, physical = tags.empty() ? 0 : tags.front(), tag](const tokens& w, line_cell& c)
+                 {
+                     c.kind = kind;
+                     c.take(w, 1, wedge_order::turned);
+                     c.groups = groups;
+                     c.labels = {physical, tag};
+                 }});
             at += n;
         }
         if (at != end) throw unsuited("a section does not end where its counts say");

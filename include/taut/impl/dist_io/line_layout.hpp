@@ -69,6 +69,7 @@ struct line_cell
     io::cell_kind kind = io::cell_kind::tetrahedron;
     std::array<std::int64_t, 8> corners{};
     std::vector<int> groups;
+    std::array<std::int64_t, 2> labels{}; ///< the second one counts where no cell of the file has the first; 0: none
 
     /// Takes corners from words.
     void take(const tokens& words, std::size_t first, wedge_order order = wedge_order::vtk)

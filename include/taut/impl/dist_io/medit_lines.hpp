@@ -56,6 +56,7 @@ struct medit_section
                     c.kind = s.kind;
                     c.take(w, 0, wedge_order::turned);
                     const auto n = static_cast<std::size_t>(io::impl::shape_of(s.kind).corners);
+                    if (s.tagged) c.labels[0] = w.integer(n);
                     c.groups.push_back(s.tagged ? names->tagged(std::string(s.group), w.integer(n), c.dimension())
                                                 : names->number({std::string(s.group), 0, false}));
                 }};

@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <system_error>
 #include <tuple>
@@ -95,6 +96,36 @@ public:
                 if (g.name == groups[group].name)
                     for (const idx v : g.vertices) places.push_back(part.places[static_cast<std::size_t>(v)]);
         return at_home(std::move(places));
+    }
+
+    /// By arrays that do not number single cells of the whole mesh.
+    labelled_cells labelled() const override
+    {
+        const auto names = label_names();
+        label_tuples labels(names.size());
+        std::vector<std::int64_t> corners, tuple(names.size(), 0);
+        for (const auto& part : files_)
+        {
+            std::vector<const std::vector<long long>*> columns;
+            for (const auto& name : names)
+            {
+                const auto at = std::find_if(part.file.labels.begin(), part.file.labels.end(),
+                                             [&](const auto& l) { return l.of_cells && l.name == name; });
+                columns.push_back(at == part.file.labels.end() ? nullptr : &at->values);
+            }
+            each_cell(part,
+                      [&](std::size_t number, int dimension, std::span<const idx> cell, io::cell_kind)
+                      {
+                          if (dimension < 2) return;
+                          for (std::size_t k = 0; k < tuple.size(); ++k)
+                              tuple[k] = columns[k] && number < columns[k]->size() ? (*columns[k])[number] : 0;
+                          if (dimension == 3) return labels.add_cell(tuple);
+                          corners.clear();
+                          for (const idx v : cell) corners.push_back(part.places[static_cast<std::size_t>(v)]);
+                          labels.add_face(corners, tuple);
+                      });
+        }
+        return labels.numbered(all_);
     }
 
     outputs write(const std::filesystem::path& path, const std::vector<vec3>& x) const override
@@ -263,22 +294,67 @@ private:
         }
     }
 
+    /// f(number in the file, dimension, corners, kind) of the cells of a piece that are not those of another.
+    template <class F>
+    static void each_cell(const mesh_file& part, const F& f)
+    {
+        std::size_t number = 0;
+        for (const auto& block : part.file.cells)
+            for (std::size_t c = 0; c < block.size(); ++c, ++number)
+                if (number >= part.ghosts.size() || part.ghosts[number] == 0)
+                    f(number, io::impl::shape_of(block.kind).dimension, block.cell(c), block.kind);
+    }
+
+    /// Collective. Arrays of cells that label more than one cell by a value, as io::impl::region_numbers() chooses
+    /// them of one file.
+    std::vector<std::string> label_names() const
+    {
+        constexpr std::size_t most = 257;
+        std::string text;
+        std::int64_t count = 0;
+        for (const auto& part : files_)
+        {
+            for (const auto& block : part.file.cells) count += static_cast<std::int64_t>(block.size());
+            for (const auto& label : part.file.labels)
+            {
+                std::set<long long> values;
+                for (const long long x : label.values)
+                    if (label.of_cells && values.size() < most) values.insert(x);
+                for (const long long x : values) text += std::to_string(x) + ' ' + label.name + '\n';
+            }
+        }
+        count = all_.sum(count);
+        std::map<std::string, std::set<std::string>> found;
+        const auto told = all_.gathered(std::vector<char>(text.begin(), text.end()));
+        for (auto at = told.begin(); at != told.end();)
+        {
+            const auto space = std::find(at, told.end(), ' '), end = std::find(space, told.end(), '\n');
+            found[std::string(space + 1, end)].emplace(at, space);
+            at = end + 1;
+        }
+        std::vector<std::string> names;
+        for (const auto& [name, values] : found)
+        {
+            const auto n = static_cast<std::int64_t>(values.size());
+            const bool many = values.size() >= most || (n > 16 && 2 * n > count);
+            const bool ghosts = name == "vtkGhostType" || name == "vtkGhostLevels";
+            if (!many && !ghosts && values != std::set<std::string>{"0"}) names.push_back(name);
+        }
+        return names;
+    }
+
     void add_cells()
     {
         std::vector<std::int64_t> corners;
         for (const auto& part : files_)
-        {
-            std::size_t number = 0;
-            for (const auto& block : part.file.cells)
-                for (std::size_t c = 0; c < block.size(); ++c, ++number)
-                {
-                    if (io::impl::shape_of(block.kind).dimension != 3) continue;
-                    if (number < part.ghosts.size() && part.ghosts[number] != 0) continue;
-                    corners.clear();
-                    for (const idx v : block.cell(c)) corners.push_back(part.places[static_cast<std::size_t>(v)]);
-                    add_solid(block.kind, corners);
-                }
-        }
+            each_cell(part,
+                      [&](std::size_t, int dimension, std::span<const idx> cell, io::cell_kind kind)
+                      {
+                          if (dimension != 3) return;
+                          corners.clear();
+                          for (const idx v : cell) corners.push_back(part.places[static_cast<std::size_t>(v)]);
+                          add_solid(kind, corners);
+                      });
     }
 
     /// Collective. Groups of all pieces by name, but those of arrays that have too many values in one, or in all.

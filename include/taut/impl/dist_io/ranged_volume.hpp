@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/dist_io/cell_labels.hpp>
 #include <taut/impl/dist_io/shared_file.hpp>
 #include <taut/impl/exact/cell_validity.hpp>
 #include <taut/impl/io/volume_file.hpp>
@@ -52,6 +53,9 @@ public:
 
     /// Collective. Vertices of a group among those of the piece, ascending, each once.
     virtual std::vector<std::int64_t> members(std::size_t group) const = 0;
+
+    /// Collective. Labels of the cells here, one per cell (not per simplex of the piece), and of faces.
+    virtual labelled_cells labelled() const { return {}; }
 
     /// Outputs that are complete but for their names; each process names those that it has.
     using outputs = std::vector<std::unique_ptr<pending_output>>;

@@ -97,10 +97,12 @@ inline line_layout su2_lines(const communicator& all, const std::filesystem::pat
         layout.sections.push_back({.what = line_section::content::cells,
                                    .text = 0,
                                    .items = range(e),
-                                   .cell = [name, names = layout.groups.get()](const tokens& words, line_cell& c)
+                                   .cell = [name, label = marker ? static_cast<std::int64_t>(k) : 0,
+                                            names = layout.groups.get()](const tokens& words, line_cell& c)
                                    {
                                        c.kind = kind_of_vtk(words.integer(0));
                                        c.take(words, 1);
+                                       c.labels[0] = label;
                                        if (!name.empty())
                                            c.groups.push_back(names->number({name, c.dimension(), false}));
                                    }});

@@ -64,8 +64,9 @@ inline line_layout tetgen_lines(const communicator& all, const std::filesystem::
                                    c.kind = io::cell_kind::tetrahedron;
                                    c.take(w, 1);
                                    const double a = any ? w.real(5) : 0.5;
-                                   if (a == std::floor(a) && std::abs(a) < 1e15)
-                                       c.groups.push_back(names->tagged("tetrahedra", static_cast<std::int64_t>(a), 3));
+                                   if (a != std::floor(a) || std::abs(a) >= 1e15) return;
+                                   c.labels[0] = static_cast<std::int64_t>(a);
+                                   c.groups.push_back(names->tagged("tetrahedra", static_cast<std::int64_t>(a), 3));
                                }});
     std::error_code unknown;
     if (!all.any(std::filesystem::exists(std::filesystem::path(path).replace_extension(".face"), unknown)))
@@ -78,7 +79,9 @@ inline line_layout tetgen_lines(const communicator& all, const std::filesystem::
                                {
                                    c.kind = io::cell_kind::triangle;
                                    c.take(w, 1);
-                                   if (any) c.groups.push_back(names->tagged("faces", marker(w.real(4)), 2));
+                                   if (!any) return;
+                                   c.labels[0] = marker(w.real(4));
+                                   c.groups.push_back(names->tagged("faces", c.labels[0], 2));
                                }});
     return layout;
 }

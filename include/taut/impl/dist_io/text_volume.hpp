@@ -64,6 +64,25 @@ public:
         return at_home(std::move(places));
     }
 
+    labelled_cells labelled() const override
+    {
+        bool first = false;
+        const auto each_cell = [this](const auto& f) { each([](auto&&...) {}, f); };
+        each_cell([&](const line_cell& c) { first = first || c.labels[0] != 0; });
+        const std::size_t which = all_.any(first) ? 0 : 1;
+        label_tuples labels(1);
+        each_cell(
+            [&](const line_cell& c)
+            {
+                const auto label = std::span(c.labels).subspan(which, 1);
+                const auto corners = static_cast<std::size_t>(io::impl::shape_of(c.kind).corners);
+                if (c.dimension() == 3) labels.add_cell(label);
+                if (c.dimension() == 2) labels.add_face(std::span(c.corners).first(corners), label);
+            });
+        labels.replace_corners(places_of(labels.corners()));
+        return labels.numbered(all_);
+    }
+
     outputs write(const std::filesystem::path& path, const std::vector<vec3>& x) const override
     {
         outputs files;
@@ -114,6 +133,7 @@ private:
                           const tokens words(line, text.comment());
                           if (s.what != content::cells) return vertex(s, number, words);
                           c.groups.clear();
+                          c.labels = {};
                           s.cell(words, c);
                           cell(c);
                       });

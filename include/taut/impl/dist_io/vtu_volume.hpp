@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <set>
 #include <span>
@@ -53,6 +54,16 @@ public:
         std::vector<std::int64_t> places;
         suited(all_, [&, a = a, value = value] { places = with_value(arrays_[a], value); });
         return at_home(std::move(places));
+    }
+
+    labelled_cells labelled() const override
+    {
+        std::map<std::size_t, std::set<std::int64_t>> of_array;
+        for (const auto& [a, value] : values_)
+            if (arrays_[a].section == "CellData") of_array[a].insert(value);
+        label_tuples labels(0);
+        suited(all_, [&] { labels = labels_of(of_array); });
+        return labels.numbered(all_);
     }
 
     outputs write(const std::filesystem::path& path, const std::vector<vec3>& x) const override
@@ -309,6 +320,26 @@ private:
                     {arrays_[k].name + ':' + std::to_string(v), arrays_[k].section == "PointData" ? 0 : 3});
             }
         }
+    }
+
+    /// Of arrays that do not number single cells, as io::impl::region_numbers() chooses them.
+    label_tuples labels_of(const std::map<std::size_t, std::set<std::int64_t>>& values) const
+    {
+        std::vector<std::vector<std::int64_t>> columns;
+        for (const auto& [a, all] : values)
+            if (all != std::set<std::int64_t>{0} && (all.size() <= 16 || 2 * all.size() <= cell_count_))
+                columns.push_back(values_here(arrays_[a]));
+        label_tuples labels(columns.size());
+        std::vector<std::int64_t> tuple(columns.size());
+        each_cell(
+            [&](std::size_t c, io::cell_kind kind, std::span<const std::int64_t> corners)
+            {
+                for (std::size_t k = 0; k < tuple.size(); ++k) tuple[k] = columns[k][c];
+                const int dimension = io::impl::shape_of(kind).dimension;
+                if (dimension == 3) labels.add_cell(tuple);
+                if (dimension == 2) labels.add_face(corners, tuple);
+            });
+        return labels;
     }
 
     std::vector<std::int64_t> with_value(const array& a, std::int64_t value) const
