@@ -54,6 +54,7 @@ class Page {
   }
 
   #take(message) {
+    this.moving = false;
     if (message.kind === 'model') this.#open(message);
     else if (message.kind === 'state') this.#show(message);
     else if (message.kind === 'note') this.note(message.text, true);
@@ -299,6 +300,8 @@ class Page {
 
   /** The feature, by a part of what is seen to the right and upwards. */
   move(x, y) {
+    if (this.moving) return; // a key that is held down waits for what it did last
+    this.moving = true;
     const { elements } = this.right.camera.matrixWorld, d = this.right.extent;
     this.send(messages.move(++this.gesture, [0, 1, 2].map((k) => d * (x * elements[k] + y * elements[4 + k]))));
     this.note('');
