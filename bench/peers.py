@@ -6,7 +6,7 @@ Installs the packages of bench/peers.txt into a virtual environment, runs each o
 one after the other, and judges what they make by checks of its own (bench/peers/judge.py), which no package has a part in. A peer that
 cannot be installed, fails, is killed at the limit or refuses a mesh is a row, too. The limit is of processor seconds, of all threads of a
 process together, so that it means the same on a busy machine; what takes no processor is killed after ten times as long. taut is imported
-from PYTHONPATH, or is installed in the environment. Figures are of the median of N runs, of one where that takes a tenth of the limit.
+from PYTHONPATH, by default build/release/python. Figures are of the median of N runs, of one where that takes a tenth of the limit.
 --total ends the run: each kind of task gets an equal part of what is left, and what does not come to run is a row. Programs of your own
 take part, too: they get a Wavefront file and leave one with texture coordinates. Without meshes: some of Debian's package libcgal-demo,
 fetched by apt-get, and bars of tetrahedra whose ends are turned."""
@@ -220,6 +220,7 @@ def main():
                            help="another peer: a program that reads and writes OBJ files, such as OptCuts")
     arguments.add_argument("meshes", nargs="*", type=pathlib.Path, help="surfaces as OFF, instead of the public ones")
     given = arguments.parse_args()
+    os.environ.setdefault("PYTHONPATH", str(ROOT / "build" / "release" / "python"))
     python = environment(given.folder)
     if pathlib.Path(sys.executable).absolute() != python.absolute():  # it has numpy and matplotlib
         os.execv(python, [str(python), *sys.argv])

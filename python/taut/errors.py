@@ -81,7 +81,7 @@ class DeviceError(TautError):
         if not self.remedy and "no OpenCL platform is installed" in message:
             self.remedy = _drivers.remedy()
             message = f"there is no OpenCL device; {self.remedy}\n{message}"
-        elif not self.remedy and "libOpenCL" in message:
+        elif not self.remedy and "libOpenCL" in message.partition(":")[0]:
             self.remedy = (
                 "install the loader of OpenCL drivers: `apt install ocl-icd-libopencl1`, "
                 "or `conda install -c conda-forge ocl-icd`"
