@@ -420,6 +420,31 @@ def polygons_of_any_outline():
         assert min(area) > 0, f"letter {k}: face {area.index(min(area))} is turned over"
 
 
+def polygons_as_fans():
+    """Prisms over a dart: a fan from the first corner covers it if that is the reflex one or the opposite, else not."""
+    dart = [(0, 0), (3, 2), (0, 1), (-3, 2)]  # the corner (0, 1) is reflex
+    for first in range(4):
+        outline = dart[first:] + dart[:first]
+        points = [[float(x), float(y), z] for z in (0.0, 1.0) for x, y in outline]
+        faces = [[0, 3, 2, 1], [4, 5, 6, 7]] + [[i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i] for i in range(4)]
+        write("dart.obj", points, faces)
+        whole = first % 2 == 0
+        for command in ("atlas", "unwrap"):
+            if command == "unwrap":  # without the top it is a disk
+                write("dart.obj", points, faces[:1] + faces[2:])
+            done = run(command, "dart.obj", "-o", "out.obj", "--stats", "s.json")
+            told = json.loads(pathlib.Path("s.json").read_text(encoding="utf-8"))
+            told = told if command == "atlas" else told["after"] if "reversed_fans" in told.get("after", {}) else told
+            darts = 2 if command == "atlas" else 1
+            assert told["reversed_fans"] == (0 if whole else darts), (first, told)
+            assert ("cuts polygons as fans" in done.stderr + done.stdout) == (not whole)
+            _, uv, _, texcoords = read("out.obj")
+            fans = [cross(uv[t[0]], uv[t[k]], uv[t[k + 1]]) for t in texcoords[:darts] for k in (1, 2)]
+            assert (min(fans) > 0) == whole, (command, first, fans)
+        done = run("check", "dart.obj")
+        assert ("cuts polygons as fans" in done.stderr + done.stdout) == (not whole)
+
+
 def sizes():
     """Texture coordinates do not depend on the size of a surface, even where areas are no numbers any more."""
     points, faces = ball(6)
@@ -516,7 +541,7 @@ def main():
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
     for case in (closed_surfaces, short_seams, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
-                 symmetric_charts, polygons_and_several_surfaces, polygons_of_any_outline,
+                 symmetric_charts, polygons_and_several_surfaces, polygons_of_any_outline, polygons_as_fans,
                  wrong_usage, stops):
         begin = time.monotonic()
         case()

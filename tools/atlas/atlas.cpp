@@ -117,6 +117,7 @@ private:
             told.output = options_.outputs[options_.outputs.size() == 1 ? 0 : i];
             told.vertices = s.file_vertices;
             told.triangles = s.file_triangles;
+            report_.reversed_fans += s.reversed_fans;
             told.mapped = s.surface().cell_count();
             told.repairs.assign(s.repairs().begin(), s.repairs().end());
             report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());

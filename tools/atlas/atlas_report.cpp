@@ -54,6 +54,7 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     if (o.stack) json["stacked"] = a.stacked;
     json["convex_polygons"] = a.polygons;
     json["concave_polygons"] = a.concave;
+    json["reversed_fans"] = r.reversed_fans;
     json["seam_length"] = a.seam_length;
     json["relative_seam"] = finite(a.seam_length / std::sqrt(a.area));
     if (a.seen_seam) json["seen_seam"] = *a.seen_seam;

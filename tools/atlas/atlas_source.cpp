@@ -60,6 +60,7 @@ public:
     {
         file_vertices = static_cast<idx>(file_.points.size());
         file_triangles = static_cast<idx>(file_.triangles.size());
+        reversed_fans = file_.faces.reversed_fans;
         if (!file_.fault && !options.repair) io::impl::ignore_unused_vertices(file_);
         notes = file_.notes;
         texcoord_fault = file_.texcoord_fault;

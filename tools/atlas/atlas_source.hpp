@@ -69,6 +69,7 @@ public:
                                                  io::gltf_numbers numbers, std::vector<std::string>& changes) const = 0;
 
     idx file_vertices = 0, file_triangles = 0;
+    std::size_t reversed_fans = 0;  ///< polygons that turn over where a program cuts them as fans
     std::vector<std::string> notes; ///< what was changed in reading, in sentences
     std::string near_edges;         ///< how many open edges the usual repair would sew; empty: none, or it has
     std::string texcoord_fault; ///< why the texture coordinates of the file are none here; empty: they are as it says

@@ -93,6 +93,7 @@ exit_code evaluate(const eval_options& options)
     const auto& surface = cut ? cut->surface : file.surface;
     take_polygons(a, impl::find_convex_polygons(surface.cells(), polygons, surface.points()),
                   cut ? cut->uv : file.vertex_texcoords());
+    a.reversed_fans = file.faces.reversed_fans;
     auto overlapping = find_overlapping(surface.cells(), cut ? cut->uv : file.vertex_texcoords());
     const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
     a.vertices = file.surface.vertex_count();

@@ -105,6 +105,7 @@ void add_polygons(nlohmann::ordered_json& json, const assessment& a)
 {
     json["convex_polygons"] = a.polygons;
     json["concave_polygons"] = a.concave.size();
+    json["reversed_fans"] = a.reversed_fans;
     json["concave_polygon_ids"] = std::vector<idx>(
         a.concave.begin(), a.concave.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(a.concave.size(), 8)));
 }

@@ -147,6 +147,7 @@ private:
         command_.tell("measure");
         report_.seconds.quality = command_.clock.timed([&] { report_.assess(options_, params, surface(), uv_); });
         take_polygons(report_.after, polygons, uv_);
+        report_.after.reversed_fans = file_->faces.reversed_fans;
         report_.after.vertices = file_->surface.vertex_count();
         report_.seam_vertices = cut_ ? cut_->seam_vertices : 0;
         // The certificate of exactly what is written, taken by other code than the solver's.

@@ -161,6 +161,12 @@ struct polygon_soup
                     std::to_string(split.polygons) + (split.polygons == 1 ? " polygon was" : " polygons were") +
                     " split into triangles" +
                     (split.fans > 0 ? " (" + std::to_string(split.fans) + " as a fan, too large for more)" : ""));
+            if (split.reversed > 0)
+                result.notes.push_back(
+                    std::to_string(split.reversed) + (split.reversed == 1 ? " polygon is" : " polygons are") +
+                    " not seen as a whole from " + (split.reversed == 1 ? "its first corner" : "their first corners") +
+                    ": a program that cuts polygons as fans turns triangles over, in space and in any map");
+            result.faces.reversed_fans = split.reversed;
             result.faces.triangles = std::move(split.corners);
         }
         const auto by_triangle = [&](const std::vector<idx>& items)

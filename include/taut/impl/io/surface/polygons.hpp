@@ -103,6 +103,40 @@ public:
         return whole;
     }
 
+    /// What a fan of triangles from the first corner of a polygon is, seen along the main axis of its normal: how many
+    /// programs cut it.
+    enum class fan
+    {
+        convex,  ///< as any other way to cut it: every corner turns left, none of them by less than a millionth
+        whole,   ///< positive triangles that do not overlap, although the polygon is not convex
+        thin,    ///< the same but for flat triangles
+        reversed ///< it has triangles that face away from the polygon, or lie on each other
+    };
+    fan fan_of(std::span<const vec3> polygon)
+    {
+        constexpr double thin = 1e-6, turn = 6.2831853;
+        p_ = polygon;
+        start();
+        const auto length = [](const vec2& d) { return glm::dot(d, d); };
+        const auto height = [&](const vec2& a, const vec2& b, const vec2& c) {
+            return taut::impl::orient(a, b, c).det / std::max({length(b - a), length(c - b), length(a - c)});
+        };
+        bool convex = true, flat = false;
+        for (std::size_t i = 0; i < x_.size(); ++i)
+            convex = convex && height(x_[before_[i]], x_[i], x_[after_[i]]) > thin;
+        double angle = 0;
+        for (std::size_t i = 1; i + 1 < x_.size(); ++i)
+        {
+            const vec2 b = x_[i] - x_[0], c = x_[i + 1] - x_[0];
+            const double own = height(x_[0], x_[i], x_[i + 1]);
+            if (own < -thin) return fan::reversed;
+            flat = flat || !(own > thin);
+            angle += std::atan2(b.x * c.y - b.y * c.x, glm::dot(b, c));
+        }
+        if (!(angle < turn)) return fan::reversed; // around the first corner more than once
+        return convex ? fan::convex : flat ? fan::thin : fan::whole;
+    }
+
 private:
     static constexpr int none = 4;                                    // the rank of a corner that is no ear
     static constexpr std::size_t gone = static_cast<std::size_t>(-1); // the stamp of a corner that was cut off

@@ -24,6 +24,7 @@ struct face_triangles
     std::vector<std::array<idx, 3>> corners; ///< of each triangle: numbers of corners of the faces
     std::size_t polygons = 0;                ///< that were split
     std::size_t fans = 0;                    ///< of these: too large to be split into ears
+    std::size_t reversed = 0;                ///< of these: fans from their first corners have reversed triangles
 };
 
 /// Splits the polygons among the faces of a file. Two polygons that have three corners in common, as those around a
@@ -51,6 +52,7 @@ public:
             const bool ears = split(f, any, split_.corners);
             split_.polygons += is_polygon(f) ? 1 : 0;
             split_.fans += ears ? 0 : 1;
+            split_.reversed += is_polygon(f) && fan_ == ear_clipper::fan::reversed ? 1 : 0;
             first_triangle_.push_back(static_cast<idx>(split_.corners.size()));
         }
         if (split_.polygons > 1 || (split_.polygons > 0 && sizes_.size() > 1)) part_diagonals();
@@ -76,7 +78,8 @@ private:
         return static_cast<std::size_t>(bad - vertices.begin());
     }
 
-    /// Appends the triangles of a face: of a polygon with a corner that cannot be used, a fan around that.
+    /// Appends the triangles of a face: of a polygon with a corner that cannot be used, a fan around that; of one that
+    /// is not convex, a fan from its first corner, as other programs cut it, where that is one. Sets fan_.
     /// Returns false if it is too large for ears.
     template <class NonManifold>
     bool split(std::size_t f, NonManifold non_manifold, triangles& result)
@@ -92,6 +95,7 @@ private:
             if (n > 0) add(0, std::min<std::size_t>(n - 1, 1), n - 1);
             return true;
         }
+        fan_ = ear_clipper::fan::convex;
         if (const std::size_t bad = unusable_corner(f); bad < n)
         {
             for (std::size_t i = 1; i + 1 < n; ++i) add(bad, (bad + i) % n, (bad + i + 1) % n);
@@ -99,6 +103,14 @@ private:
         }
         polygon_.clear();
         for (const idx v : vertices_of(f)) polygon_.push_back(points_[u(v)]);
+        fan_ = clipper_.fan_of(polygon_);
+        if (fan_ == ear_clipper::fan::whole)
+        {
+            bool taken = false;
+            for (std::size_t i = 2; i + 1 < n; ++i) taken = taken || non_manifold(std::size_t(0), i);
+            for (std::size_t i = 1; i + 1 < n && !taken; ++i) add(0, i, i + 1);
+            if (!taken) return true;
+        }
         return clipper_.split(polygon_, vertices_of(f), non_manifold, add);
     }
 
@@ -261,6 +273,7 @@ private:
     std::vector<idx> face_;                 // of each corner
     taut::impl::csr around_;                // corners at each vertex
     ear_clipper clipper_;
+    ear_clipper::fan fan_ = ear_clipper::fan::convex; // of the polygon that was split last
     std::vector<vec3> polygon_;
 };
 
