@@ -4,6 +4,7 @@
 #include <taut/impl/hierarchy/reinsert.ipp>
 #include <taut/impl/hierarchy/rings.ipp>
 #include <taut/impl/hierarchy/thinning.ipp>
+#include <taut/impl/objective/minimizers.ipp>
 #include <taut/impl/objective/newton_objective.ipp>
 #include <taut/impl/objective/nonlinear_elimination.ipp>
 #include <taut/impl/objective/traced_element.ipp>

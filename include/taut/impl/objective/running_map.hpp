@@ -16,9 +16,7 @@
 #include <taut/impl/exact/collapses.hpp>
 #include <taut/impl/measure/planar_size.hpp>
 #include <taut/impl/objective/mapped_mesh.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
-#include <taut/impl/solve/minimize.hpp>
-#include <taut/impl/solve/prescribed.hpp>
+#include <taut/impl/objective/minimizers.hpp>
 
 namespace taut::impl
 {

@@ -4,6 +4,8 @@
 /// The objectives of volumes, which programs of surfaces need not compile.
 #include <taut/impl/mesh/tetrahedron.hpp>
 #include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/solve/prescribed.hpp>
 
 namespace taut::impl
 {
@@ -21,6 +23,15 @@ extern template struct newton_kernels<tetrahedron>;
 extern template class newton_objective<tetrahedron>;
 
 } // namespace taut::impl
+
+namespace taut::solve
+{
+
+extern template report minimize(taut::impl::newton_objective<tetrahedron>&,
+                                taut::impl::newton_objective<tetrahedron>::point&, const params&, const observer&);
+extern template class impl::prescribed_newton<taut::impl::newton_objective<tetrahedron>>;
+
+} // namespace taut::solve
 
 #ifdef TAUT_IMPLEMENTATION
 #include <taut/impl/objective/volume_objective.ipp>

@@ -18,3 +18,12 @@ template struct newton_kernels<tetrahedron>;
 template class newton_objective<tetrahedron>;
 
 } // namespace taut::impl
+
+namespace taut::solve
+{
+
+template report minimize(taut::impl::newton_objective<tetrahedron>&, taut::impl::newton_objective<tetrahedron>::point&,
+                         const params&, const observer&);
+template class impl::prescribed_newton<taut::impl::newton_objective<tetrahedron>>;
+
+} // namespace taut::solve

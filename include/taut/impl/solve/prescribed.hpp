@@ -97,7 +97,51 @@ public:
 
     /// x: in the domain; moved. gap: the norm of the remaining displacement, > 0. proceed() is asked before each step
     /// but the first.
-    prescribed_report run(point& x, double gap, const std::function<bool(const prescribed_report&)>& proceed)
+    prescribed_report run(point& x, double gap, const std::function<bool(const prescribed_report&)>& proceed);
+
+private:
+    static constexpr int patience = 8;         // steps
+    static constexpr int rounds = 3;           // of four trial steps each, until one will do
+    static constexpr double centring = 1e-2;   // part of f that a step must gain for another one
+    static constexpr double least_cost = 1e-3; // part of f that is always worth a step
+
+    struct progress
+    {
+        double moved = 0, fallen = 0; ///< by how much the gap has become shorter, and f
+    };
+
+    progress step(point& x, prescribed_report& r);
+
+    /// Maximum f for a remaining fraction of the gap.
+    double costliest(double left) const { return *start_ + params_.most_cost * (1 - left / gap_) * f_.size(*start_); }
+
+    struct trial
+    {
+        double step, value;
+    };
+
+    /// Trial step of minimum merit, 0 if none is below that of the point itself. rise: increase predicted by the model
+    /// for the full step.
+    trial longest(const point& x, double value, double rise, double share, double left);
+
+    Objective& prescribed_;
+    full_objective<Objective> f_;
+    prescribed_params params_;
+    solve::impl::pcg<space_of<Objective>> pcg_;
+    point next_;
+    vector d_, g_, follow_;                                   // d; the gradient that the others see; d of the others
+    double radius_ = std::numeric_limits<double>::infinity(); // of d at what is prescribed
+    double gap_ = 0;                                          // at the start of the run
+    std::optional<double> start_;                             // f there
+    bool centring_ = false; // the next step leaves the prescribed coordinates where they are
+    int slow_ = 0;          // steps in a row that brought little
+};
+
+// Apart, so that what is instantiated once is compiled once.
+
+template <class Objective>
+    requires has_prescribed<Objective> prescribed_report prescribed_newton<Objective>::run(
+        point& x, double gap, const std::function<bool(const prescribed_report&)>& proceed)
     {
         prescribed_report r{.left = gap};
         gap_ = gap;
@@ -115,97 +159,68 @@ public:
         return r;
     }
 
-private:
-    static constexpr int patience = 8;         // steps
-    static constexpr int rounds = 3;           // of four trial steps each, until one will do
-    static constexpr double centring = 1e-2;   // part of f that a step must gain for another one
-    static constexpr double least_cost = 1e-3; // part of f that is always worth a step
-
-    struct progress
+template <class Objective>
+    requires has_prescribed<Objective>
+typename prescribed_newton<Objective>::progress prescribed_newton<Objective>::step(point& x, prescribed_report& r)
+{
+    const double share = centring_ ? 0 : std::min(1.0, radius_ / r.left), length = share * r.left;
+    const auto here = prescribed_.linearize_towards(x, share, d_, g_);
+    if (!start_) start_ = here.value;
+    const auto model = pcg_.solve(
+        g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
+        [this](const vector& v, vector& out) { f_.precondition(v, out); }, follow_);
+    f_.space().axpby(1, follow_, 1, d_);
+    ++r.iterations;
+    r.products += model.steps;
+    // A motion that costs nothing in the model, as a turn, costs a little in a straight line.
+    const double least_rise = centring_ ? 0 : least_cost * f_.size(here.value);
+    const auto [taken, value] =
+        longest(x, here.value, std::max(least_rise, here.change - model.decrease), share, r.left);
+    r.value = value;
+    if (!centring_) radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
+    const double fallen = here.value - value;
+    centring_ = centring_ ? fallen > centring * f_.size(value) : taken < params_.relax_below;
+    if (taken > 0)
     {
-        double moved = 0, fallen = 0; ///< by how much the gap has become shorter, and f
-    };
-
-    progress step(point& x, prescribed_report& r)
-    {
-        const double share = centring_ ? 0 : std::min(1.0, radius_ / r.left), length = share * r.left;
-        const auto here = prescribed_.linearize_towards(x, share, d_, g_);
-        if (!start_) start_ = here.value;
-        const auto model = pcg_.solve(
-            g_, [this](const vector& v, vector& out) { f_.hessian_product(v, out); },
-            [this](const vector& v, vector& out) { f_.precondition(v, out); }, follow_);
-        f_.space().axpby(1, follow_, 1, d_);
-        ++r.iterations;
-        r.products += model.steps;
-        // A motion that costs nothing in the model, as a turn, costs a little in a straight line.
-        const double least_rise = centring_ ? 0 : least_cost * f_.size(here.value);
-        const auto [taken, value] =
-            longest(x, here.value, std::max(least_rise, here.change - model.decrease), share, r.left);
-        r.value = value;
-        if (!centring_) radius_ = taken == 1 ? std::max(radius_, 2 * length) : length * std::max(taken, 0.25);
-        const double fallen = here.value - value;
-        centring_ = centring_ ? fallen > centring * f_.size(value) : taken < params_.relax_below;
-        if (taken > 0)
-        {
-            f_.step(x, taken, d_, next_);
-            std::swap(x, next_);
-        }
-        r.arrived = taken == 1 && share == 1;
-        if (r.arrived) prescribed_.put(x);
-        if (taken < params_.relax_below) f_.relax(x);
-        return {taken * length, fallen};
+        f_.step(x, taken, d_, next_);
+        std::swap(x, next_);
     }
+    r.arrived = taken == 1 && share == 1;
+    if (r.arrived) prescribed_.put(x);
+    if (taken < params_.relax_below) f_.relax(x);
+    return {taken * length, fallen};
+}
 
-    /// Maximum f for a remaining fraction of the gap.
-    double costliest(double left) const { return *start_ + params_.most_cost * (1 - left / gap_) * f_.size(*start_); }
-
-    struct trial
+template <class Objective>
+    requires has_prescribed<Objective>
+typename prescribed_newton<Objective>::trial
+prescribed_newton<Objective>::longest(const point& x, double value, double rise, double share, double left)
+{
+    const double noise = f_.rounding() * f_.size(value);
+    const double steepest = value + params_.most_rise * f_.size(value);
+    trial best{0, value};
+    double least = value + noise, unit = 1;
+    std::array<double, 4> a{1, 0.5, 0.25, 0.125}, values;
+    for (int round = 0; round < rounds && best.step == 0; ++round)
     {
-        double step, value;
-    };
-
-    /// Trial step of minimum merit, 0 if none is below that of the point itself. rise: increase predicted by the model
-    /// for the full step.
-    trial longest(const point& x, double value, double rise, double share, double left)
-    {
-        const double noise = f_.rounding() * f_.size(value);
-        const double steepest = value + params_.most_rise * f_.size(value);
-        trial best{0, value};
-        double least = value + noise, unit = 1;
-        std::array<double, 4> a{1, 0.5, 0.25, 0.125}, values;
-        for (int round = 0; round < rounds && best.step == 0; ++round)
+        if (round == 0)
+            unit = f_.capped_values(x, d_, params_.barrier_fraction, a, values);
+        else
         {
-            if (round == 0)
-                unit = f_.capped_values(x, d_, params_.barrier_fraction, a, values);
-            else
-            {
-                for (double& shorter : a) shorter *= (round == 1 ? unit : 1) / 16;
-                unit = 1;
-                f_.values(x, d_, a, values);
-            }
-            for (std::size_t i = 0; i < a.size(); ++i)
-            {
-                const double merit = values[i] - 2 * rise * unit * a[i];
-                if (!(merit < least) || values[i] > std::min(steepest, costliest(left * (1 - share * unit * a[i]))))
-                    continue;
-                least = merit;
-                best = {unit * a[i], values[i]};
-            }
+            for (double& shorter : a) shorter *= (round == 1 ? unit : 1) / 16;
+            unit = 1;
+            f_.values(x, d_, a, values);
         }
-        return best;
+        for (std::size_t i = 0; i < a.size(); ++i)
+        {
+            const double merit = values[i] - 2 * rise * unit * a[i];
+            if (!(merit < least) || values[i] > std::min(steepest, costliest(left * (1 - share * unit * a[i]))))
+                continue;
+            least = merit;
+            best = {unit * a[i], values[i]};
+        }
     }
-
-    Objective& prescribed_;
-    full_objective<Objective> f_;
-    prescribed_params params_;
-    solve::impl::pcg<space_of<Objective>> pcg_;
-    point next_;
-    vector d_, g_, follow_;                                   // d; the gradient that the others see; d of the others
-    double radius_ = std::numeric_limits<double>::infinity(); // of d at what is prescribed
-    double gap_ = 0;                                          // at the start of the run
-    std::optional<double> start_;                             // f there
-    bool centring_ = false; // the next step leaves the prescribed coordinates where they are
-    int slow_ = 0;          // steps in a row that brought little
-};
+    return best;
+}
 
 } // namespace taut::solve::impl

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include <taut/impl/objective/mesh_levels.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
-#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/objective/minimizers.hpp>
 #include <taut/impl/start/barycentric_map.hpp>
 
 namespace taut::impl

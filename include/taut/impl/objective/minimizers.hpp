@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// Minimisation of the energy of surfaces' maps by all methods; volume_objective.hpp has that of volumes.
+#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/solve/minimize.hpp>
+#include <taut/impl/solve/prescribed.hpp>
+
+namespace taut::solve
+{
+
+// Compiled once, with the bodies.
+extern template report minimize(taut::impl::newton_objective<triangle>&, taut::impl::newton_objective<triangle>::point&,
+                                const params&, const observer&);
+extern template class impl::prescribed_newton<taut::impl::newton_objective<triangle>>;
+
+} // namespace taut::solve
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/minimizers.ipp>
+#endif
