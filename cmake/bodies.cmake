@@ -16,12 +16,6 @@ if(NOT TARGET Eigen3::Eigen)
     list(FILTER taut_sources EXCLUDE REGEX "/paste.cpp$") # its systems are solved by Eigen
 endif()
 add_library(taut STATIC EXCLUDE_FROM_ALL ${taut_sources})
-# What works hard in these is kernels and what other units have: they run as fast, and compile in three quarters of the
-# time. (The sanitizers' tests compile all without optimisation.)
-set(taut_light_sources ${taut_source_dir}/deform.cpp ${taut_source_dir}/parameterize.cpp ${taut_source_dir}/volume.cpp)
-if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang" AND NOT TAUT_SANITIZE)
-    set_source_files_properties(${taut_light_sources} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
-endif()
 set_target_properties(taut PROPERTIES POSITION_INDEPENDENT_CODE ON) # for shared libraries, as a module of Python
 add_library(taut::taut ALIAS taut)
 target_link_libraries(taut PUBLIC taut::headers)
