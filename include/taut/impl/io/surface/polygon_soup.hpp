@@ -165,7 +165,7 @@ struct polygon_soup
                 result.notes.push_back(
                     std::to_string(split.reversed) + (split.reversed == 1 ? " polygon is" : " polygons are") +
                     " not seen as a whole from " + (split.reversed == 1 ? "its first corner" : "their first corners") +
-                    ": a program that cuts polygons as fans turns triangles over, in space and in any map");
+                    ": a program that cuts polygons as fans turns triangles over, in space and perhaps in a map");
             result.faces.reversed_fans = split.reversed;
             result.faces.triangles = std::move(split.corners);
         }
