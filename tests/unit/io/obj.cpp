@@ -224,8 +224,10 @@ TEST_CASE("obj: a very large polygon becomes a fan, with a note")
     };
     const auto large = parse_obj(star(4400, 0.5));
     CHECK(large.surface.cell_count() == 4398);
-    REQUIRE(large.notes.size() == 1);
+    REQUIRE(large.notes.size() == 2);
     CHECK(contains(large.notes[0], "(1 as a fan, too large for more)"));
+    CHECK(contains(large.notes[1], "1 polygon is not seen as a whole from its first corner"));
+    CHECK(large.faces.reversed_fans == 1);
     for (const auto& text : {star(4400, 1), star(600, 0.5)}) // few reflex corners take few steps
     {
         const auto ears = parse_obj(text);
