@@ -525,15 +525,19 @@ def stops():
         assert stats("s.json")["complete"] == (done.returncode == 0)
         judge("rough.out.obj", points, faces, samples=128)
 
-    # Rougher than its triangles are large: no two of them are seen from one side. There are few charts all the same.
-    points, faces = ball(24)
-    points = [[c + rng.gauss(0, 0.1) for c in p] for p in points]
-    write("spiky.obj", points, faces)
-    done = subprocess.run([TAUT, "atlas", "spiky.obj", "-o", "spiky.out.obj", "--time-limit", "0.5", "--stats", "s.json"],
-                          capture_output=True, text=True, check=False)
-    assert done.returncode == 8, done.stderr
-    assert stats("s.json")["charts"] < 300 and stats("s.json")["distortion"] < 100, stats("s.json")["charts"]
-    judge("spiky.out.obj", points, faces, samples=128)
+    # Rougher than its triangles are large: no two of them are seen from one side. There are few charts all the same, also
+    # of a surface so large that the padding of small ones fills the page.
+    for n, limit in ((24, "0.5"), (132, "2")):
+        points, faces = ball(n)
+        points = [[c + rng.gauss(0, 0.1) for c in p] for p in points]
+        write("spiky.obj", points, faces)
+        done = subprocess.run([TAUT, "atlas", "spiky.obj", "-o", "spiky.out.obj", "--time-limit", limit, "--stats", "s.json"],
+                              capture_output=True, text=True, check=False)
+        assert done.returncode == 8, done.stderr
+        told = stats("s.json")
+        assert told["charts"] < 1000 and told["distortion"] < 200, (told["charts"], told["distortion"])
+        if n < 100:
+            judge("spiky.out.obj", points, faces, samples=128)
 
 
 def main():

@@ -235,6 +235,23 @@ TEST_CASE("obj: a very large polygon becomes a fan, with a note")
     }
 }
 
+TEST_CASE("obj: a polygon that is not convex is cut as a fan from its first corner where that covers it")
+{
+    const std::string dented = "v 0 0 0\nv 10 -1 0\nv 11 -0.5 0\nv 10.5 0 0\nv 11 0.5 0\nv 10 1 0\n";
+    const auto at_first = [](const auto& f) {
+        return std::ranges::all_of(f.surface.cells(),
+                                   [](const auto& t) { return t[0] == 0 || t[1] == 0 || t[2] == 0; });
+    };
+    const auto whole = parse_obj(dented + "f 1 2 3 4 5 6\n");
+    CHECK(whole.surface.cell_count() == 4);
+    CHECK(at_first(whole)); // the shortest diagonal is from corner 2 to 4
+    CHECK(whole.faces.reversed_fans == 0);
+    // From corner 3 the dent hides the other side.
+    const auto hidden = parse_obj(dented + "f 3 4 5 6 1 2\n");
+    CHECK(hidden.surface.cell_count() == 4);
+    CHECK(hidden.faces.reversed_fans == 1);
+}
+
 TEST_CASE("obj: texture coordinates of polygons follow their corners")
 {
     const auto f = parse_obj(square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/4 2/3 3/2 4/1\n");

@@ -55,7 +55,8 @@ inline std::size_t flat_charts::lay_at_once(laid_triangles& laid, std::span<cons
 {
     constexpr std::size_t fewest = 10;    // triangles of a patch in the mean; cells are fewer, but more distorted
     constexpr std::size_t many = 50'000;  // triangles, worth more threads
-    constexpr std::size_t most = 200'000; // triangles, whose cells take seconds
+    constexpr std::size_t most = 200'000; // triangles, whose cells take seconds: only where patches would fill no page
+    constexpr std::size_t crumbs = 3;     // triangles of a patch in the mean, then
     constexpr std::size_t largest = 1024; // triangles of a patch
     const auto all = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), char(1)));
     std::vector<char> parts(wanted.begin(), wanted.end());
@@ -66,7 +67,8 @@ inline std::size_t flat_charts::lay_at_once(laid_triangles& laid, std::span<cons
             if (parts[c] != 0) parts[c] = octant[c];
     }
     const auto seen = lay_as_seen(mesh_, facets_, parts, params_.charts.seams, largest);
-    return all > most || all >= fewest * seen.energy.size() ? take_patches(laid, seen) : lay_cells(laid, wanted);
+    const std::size_t least = all > most ? crumbs : fewest;
+    return all >= least * seen.energy.size() ? take_patches(laid, seen) : lay_cells(laid, wanted);
 }
 
 inline std::size_t flat_charts::lay_cells(laid_triangles& laid, std::span<const char> wanted)
