@@ -38,6 +38,7 @@
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
 #include "shared/png.hpp"
+#include "shared/reversed_fans.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
@@ -117,7 +118,6 @@ private:
             told.output = options_.outputs[options_.outputs.size() == 1 ? 0 : i];
             told.vertices = s.file_vertices;
             told.triangles = s.file_triangles;
-            report_.reversed_fans += s.reversed_fans;
             told.mapped = s.surface().cell_count();
             told.repairs.assign(s.repairs().begin(), s.repairs().end());
             report_.notes.insert(report_.notes.end(), s.notes.begin(), s.notes.end());
@@ -242,8 +242,12 @@ private:
                              [&](io::atomic_file& file) { write_joined(file, options_.inputs, *joined_, maps); }});
         else
             for (std::size_t i = 0; i < sources_.size(); ++i)
+            {
+                if (!io::is_gltf(options_.outputs[i])) report_.reversed_fans += sources_[i]->reversed_fans(maps.of(i));
                 for (auto& file : sources_[i]->files(options_.outputs[i], maps.of(i), numbers_, report_.notes))
                     files.push_back(std::move(file));
+            }
+        note_reversed_fans(report_.notes, report_.reversed_fans);
         const auto draw = [&](std::string& path, auto image)
         { add_picture(files, path, report_.notes, command_.clock, report_.draw, image); };
         draw(options_.picture, [this] { return picture(); });

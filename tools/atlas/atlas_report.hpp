@@ -29,7 +29,7 @@ struct atlas_run_report
     };
 
     std::vector<surface> surfaces;
-    std::size_t reversed_fans = 0; ///< polygons that turn over where a program cuts them as fans
+    std::size_t reversed_fans = 0; ///< see count_reversed_fans()
     std::vector<std::string> notes;
     std::string device, device_label;
     taut::atlas_report atlas;

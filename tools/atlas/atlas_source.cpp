@@ -14,6 +14,7 @@
 
 #include "shared/failure.hpp"
 #include "shared/repair_report.hpp"
+#include "shared/reversed_fans.hpp"
 
 namespace taut::tools
 {
@@ -60,7 +61,6 @@ public:
     {
         file_vertices = static_cast<idx>(file_.points.size());
         file_triangles = static_cast<idx>(file_.triangles.size());
-        reversed_fans = file_.faces.reversed_fans;
         if (!file_.fault && !options.repair) io::impl::ignore_unused_vertices(file_);
         notes = file_.notes;
         texcoord_fault = file_.texcoord_fault;
@@ -87,6 +87,18 @@ public:
         auto result = faces();
         for (idx& face : result) face = materials[static_cast<std::size_t>(face)];
         return result;
+    }
+
+    std::size_t reversed_fans(const corner_map& map) const override
+    {
+        std::vector<vec2> at(file_.faces.corners.size(), vec2(std::numeric_limits<double>::quiet_NaN()));
+        for (std::size_t c = 0; c < map.cells.size(); ++c)
+            for (std::size_t k = 0; k < 3; ++k)
+            {
+                const auto [cell, corner] = origin(c, k);
+                at[file_.faces.corner(cell, corner)] = map.uv[static_cast<std::size_t>(map.cells[c][k])];
+            }
+        return count_reversed_fans(file_.faces, at);
     }
 
     std::vector<io::file_to_write> files(const std::string& path, const corner_map& map, io::gltf_numbers numbers,

@@ -62,6 +62,9 @@ public:
     /// The number of the polygon that each triangle is of; or empty, if all faces are triangles.
     virtual std::vector<idx> polygons() const { return {}; }
 
+    /// Polygons of the file that other programs turn over in this map (count_reversed_fans()).
+    virtual std::size_t reversed_fans(const corner_map&) const { return 0; }
+
     /// The files to be written for this map of the surface. What was left out of the surface gets no coordinates, or in
     /// glTF one point. Throws no_valid_map if a polygon is in several charts.
     /// changes: gets what the files do not have as it was, in sentences
@@ -69,7 +72,6 @@ public:
                                                  io::gltf_numbers numbers, std::vector<std::string>& changes) const = 0;
 
     idx file_vertices = 0, file_triangles = 0;
-    std::size_t reversed_fans = 0;  ///< polygons that turn over where a program cuts them as fans
     std::vector<std::string> notes; ///< what was changed in reading, in sentences
     std::string near_edges;         ///< how many open edges the usual repair would sew; empty: none, or it has
     std::string texcoord_fault; ///< why the texture coordinates of the file are none here; empty: they are as it says

@@ -19,6 +19,7 @@
 #include "shared/failure.hpp"
 #include "shared/printable.hpp"
 #include "shared/report_files.hpp"
+#include "shared/reversed_fans.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
@@ -93,7 +94,8 @@ exit_code evaluate(const eval_options& options)
     const auto& surface = cut ? cut->surface : file.surface;
     take_polygons(a, impl::find_convex_polygons(surface.cells(), polygons, surface.points()),
                   cut ? cut->uv : file.vertex_texcoords());
-    a.reversed_fans = file.faces.reversed_fans;
+    a.reversed_fans = count_reversed_fans(file.faces, surface, cut ? cut->uv : file.vertex_texcoords());
+    note_reversed_fans(a.notes, a.reversed_fans);
     auto overlapping = find_overlapping(surface.cells(), cut ? cut->uv : file.vertex_texcoords());
     const std::size_t seam_vertices = cut ? cut->seam_vertices : 0;
     a.vertices = file.surface.vertex_count();

@@ -31,7 +31,7 @@ struct assessment
         crossings;                  ///< pairs of boundary edges that meet; unknown where an edge has 3 triangles
     std::size_t polygons = 0;       ///< faces of more than three corners that are convex in space
     std::vector<idx> concave;       ///< those that are not in the map
-    std::size_t reversed_fans = 0;  ///< polygons that turn over where a program cuts them as fans
+    std::size_t reversed_fans = 0;  ///< see count_reversed_fans()
     std::vector<std::string> notes; ///< what could not be measured, and why
 };
 

@@ -24,6 +24,7 @@
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
 #include "shared/png.hpp"
+#include "shared/reversed_fans.hpp"
 #include "shared/seams.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
@@ -147,7 +148,8 @@ private:
         command_.tell("measure");
         report_.seconds.quality = command_.clock.timed([&] { report_.assess(options_, params, surface(), uv_); });
         take_polygons(report_.after, polygons, uv_);
-        report_.after.reversed_fans = file_->faces.reversed_fans;
+        report_.after.reversed_fans = count_reversed_fans(file_->faces, surface(), uv_);
+        note_reversed_fans(report_.notes, report_.after.reversed_fans);
         report_.after.vertices = file_->surface.vertex_count();
         report_.seam_vertices = cut_ ? cut_->seam_vertices : 0;
         // The certificate of exactly what is written, taken by other code than the solver's.

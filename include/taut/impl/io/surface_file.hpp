@@ -40,7 +40,6 @@ struct file_faces
     std::vector<idx> sizes;                    ///< corners of each
     std::vector<idx> corners;                  ///< the vertex of each corner, one face after the other
     std::vector<std::array<idx, 3>> triangles; ///< the corners of each triangle; empty if all faces are triangles
-    std::size_t reversed_fans = 0; ///< polygons of which a fan from the first corner has reversed triangles, in space
 
     /// The corner that corner k of triangle c is.
     std::size_t corner(std::size_t c, std::size_t k) const

@@ -166,7 +166,6 @@ struct polygon_soup
                     std::to_string(split.reversed) + (split.reversed == 1 ? " polygon is" : " polygons are") +
                     " not seen as a whole from " + (split.reversed == 1 ? "its first corner" : "their first corners") +
                     ": a program that cuts polygons as fans turns triangles over, in space and perhaps in a map");
-            result.faces.reversed_fans = split.reversed;
             result.faces.triangles = std::move(split.corners);
         }
         const auto by_triangle = [&](const std::vector<idx>& items)
