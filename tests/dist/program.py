@@ -398,11 +398,17 @@ def case_interfaces():
     all_cells = [c for c, _ in cells + faces]
     vtu_appended("bar.vtu", b.points, all_cells, *data)
     tolerance = ("--tolerance", "1e-8", "--stats", "s.json")
+
+    def kept_notes():
+        return [note for note in stats("s.json")["notes"] if "inside keep" in note]
+
     for k, name in enumerate(("bar.mesh", "bar.msh", "bar.node", "bar.su2", "bar.vtu")):
         out = "out" + os.path.splitext(name)[1]
         serial("smooth", name, "-o", out, *tolerance)
-        one = stats("s.json")["energy"]
+        one, kept = stats("s.json")["energy"], kept_notes()
+        assert [note[:21] for note in kept] == ([] if name == "bar.su2" else ["1 vertex inside keeps"]), kept  # no regions
         run("smooth", name, "-o", out, *tolerance, processes=2 + k % 2)
+        assert kept_notes() == kept, stats("s.json")["notes"]
         assert stats("s.json")["read"] == "by ranges", (name, stats("s.json")["read"])
         near(stats("s.json")["energy"], one, 6)  # the serial one computes in float
         if name == "bar.mesh":

@@ -259,6 +259,8 @@ private:
         }
         found.notes.insert(found.notes.end(), source_->notes.begin(), source_->notes.end());
         if (!shape_.smoothing && report_.pins + report_.springs == 0) found.notes.push_back(nothing_held);
+        if (found.on_interfaces > 0)
+            found.notes.push_back(kept_interfaces_note(static_cast<std::uint64_t>(found.on_interfaces)));
     }
 
     /// All files appear, or none.

@@ -10,6 +10,7 @@
 #include "shared/choices.hpp"
 #include "shared/outputs.hpp"
 #include "shared/shared_options.hpp"
+#include "shared/text_table.hpp"
 #include "volume/group_targets.hpp"
 #include "volume/volume_case.hpp"
 
@@ -107,6 +108,12 @@ bool names_surface(const std::string& path)
 void check(const shape_options& o)
 {
     if (o.smoothing || !names_surface(o.input)) require_file(o.output);
+}
+
+std::string kept_interfaces_note(std::uint64_t vertices)
+{
+    return count(vertices, "vertex inside keeps to an interface", "vertices inside keep to interfaces") +
+           " between regions, or to labelled faces; --interfaces free lets them go";
 }
 
 any_energy energy_of(shape_energy choice)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -49,6 +50,9 @@ struct shape_options
 inline constexpr const char* nothing_held =
     "nothing is fixed or moved, so the mesh takes its rest shape; use --pins, --fix "
     "or --move";
+
+/// A note of what smoothing keeps inside.
+std::string kept_interfaces_note(std::uint64_t vertices);
 
 /// Declare the options of either command; they are filled when the program's arguments are parsed.
 void declare_deform(CLI::App& app, shape_options& options);

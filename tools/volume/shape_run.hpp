@@ -120,9 +120,7 @@ private:
             for (const idx v : facet.corners()) inside[static_cast<std::size_t>(v)] = 1;
         std::size_t kept = 0;
         for (std::size_t v = 0; v < inside.size(); ++v) kept += inside[v] && !outside[v];
-        if (kept > 0)
-            add_note(count(kept, "vertex inside keeps to an interface", "vertices inside keep to interfaces") +
-                     " between regions, or to labelled faces; --interfaces free lets them go");
+        if (kept > 0) add_note(kept_interfaces_note(kept));
     }
 
     template <class Params>

@@ -43,6 +43,7 @@ struct report
     int setups = 0;                 ///< of the preconditioner
     int fallbacks = 0;              ///< how often a safer preconditioner was needed
     std::int64_t unknowns = 0;      ///< vertices that may move
+    std::int64_t on_interfaces = 0; ///< vertices inside that smooth() keeps to interfaces
     certificate flips;              ///< of the shape that is returned
     impl::phase_seconds seconds;    ///< of this process
     std::int64_t own_vertices = 0, halo_vertices = 0, local_cells = 0; ///< of this process

@@ -79,6 +79,9 @@ public:
         rows_stale_ = true;
     }
 
+    /// Tells reports how many vertices inside keep to interfaces.
+    void keep_to_interfaces(std::int64_t count) { on_interfaces_ = count; }
+
     const part<Element>& mesh_part() const { return part_; }
     const rest_model<Element>& at_rest() const { return rest_; }
     dist_objective<Element>& objective() { return *objective_; }
@@ -90,6 +93,7 @@ public:
         const petsc_scope petsc;
         agreed_limits clock(part_.all, limits);
         report r;
+        r.on_interfaces = on_interfaces_;
         r.flips = certified(x_);
         if (!r.flips)
         {
@@ -419,6 +423,7 @@ private:
     std::optional<solve::impl::prescribed_newton<dist_objective<Element>>> steps_;
     numbers x_, last_, origin_, aimed_; ///< the shape, the last certified one, where slides begin, targets
     bool changed_ = true, rows_stale_ = true, stopped_by_steps_ = false;
+    std::int64_t on_interfaces_ = 0;
 };
 
 } // namespace taut::dist::impl

@@ -25,6 +25,7 @@ struct kept_boundary
 {
     constraints<Element> pins;
     std::vector<mat<Element::dimension>> slides; ///< one a vertex of the part
+    std::int64_t on_interfaces = 0;              ///< owned vertices of the surfaces inside
 };
 
 /// Facets of owned vertices have all their elements in the part; others may look like the boundary. surfaces: what
@@ -41,6 +42,12 @@ kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& 
     auto facets = taut::impl::boundary_facets(m, std::span<const idx>(p.owners));
     std::erase_if(facets,
                   [&](const auto& f) { return std::none_of(f.begin(), f.end(), [&](idx v) { return p.owns(v); }); });
+    std::vector<char> inside(p.size(), 0);
+    for (const auto& facet : surfaces)
+        for (const idx v : facet.corners()) inside[static_cast<std::size_t>(v)] = p.owns(v);
+    for (const auto& facet : facets)
+        for (const idx v : facet) inside[static_cast<std::size_t>(v)] = 0;
+    kept.on_interfaces = std::count(inside.begin(), inside.end(), 1);
     taut::impl::kept_directions<Element> directions(m, params.flat);
     if (params.boundary == smooth_boundary::sliding)
         directions.add(std::span<const std::array<idx, static_cast<std::size_t>(D)>>(facets));
@@ -143,6 +150,7 @@ session<Element> smoothing_session(MPI_Comm comm, const mesh_piece<Element>& pie
     kept_boundary<Element> kept;
     const auto surfaces = kept_interfaces(p, piece, params);
     all.together([&] { kept = boundary_of(p, params, surfaces); });
+    s.body().keep_to_interfaces(all.sum(kept.on_interfaces));
     pin_fixed(p, params.fixed, kept);
     if (slides(p, kept)) s.body().slide(std::move(kept.slides));
     s.constrain(kept.pins);
