@@ -138,6 +138,25 @@ TEST_CASE("dist deform: preconditioners lead to the same minimum")
     CHECK(r.report.converged);
 }
 
+TEST_CASE("dist deform: parts by PTScotch lead to the same minimum, with no more between them")
+{
+    const auto m = bar(4);
+    const auto where = twisted(pi / 2);
+    const auto halo = [](const dist::report& r)
+    {
+        std::int64_t sum = 0;
+        MPI_Allreduce(&r.halo_vertices, &sum, 1, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);
+        return sum;
+    };
+    const auto along = over_all(m, where),
+               cut = over_all(m, where, {.solver = {.partition = dist::partition::ptscotch}});
+    CHECK(cut.report.converged);
+    CHECK(cut.report.flips.elements == m.cell_count());
+    CHECK(at_their_places(m, cut.x, where));
+    CHECK(cut.report.energy == doctest::Approx(along.report.energy).epsilon(1e-10));
+    CHECK(halo(cut.report) <= halo(along.report));
+}
+
 TEST_CASE("dist deform: a preconditioner that fails is replaced by a safer one")
 {
     const auto m = bar(2);

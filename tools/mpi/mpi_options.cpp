@@ -21,6 +21,10 @@ void declare_solver(CLI::App& app, mpi_options& o)
                                                          {"gamg", dist::preconditioner::gamg},
                                                          {"block-jacobi", dist::preconditioner::block_jacobi}},
                "Preconditioner of the Newton systems");
+    add_choice(app, "--partition", o.solver.partition,
+               std::vector<choice<dist::partition>>{{"curve", dist::partition::curve},
+                                                    {"ptscotch", dist::partition::ptscotch}},
+               "Owners of vertices: ranges of a curve, or parts by PTScotch, with less between them");
     app.add_option("--petsc", o.solver.options,
                    "Options of PETSc for the preconditioner, in one argument, as \"-pc_type gamg\"")
         ->type_name("OPTIONS");

@@ -71,6 +71,7 @@ nlohmann::ordered_json to_json(const mpi_report& r, const mpi_options& o)
     json["springs"] = r.springs;
     json["device"] = r.device;
     json["preconditioner"] = dist::to_string(o.solver.preconditioner);
+    json["partition"] = dist::to_string(o.solver.partition);
     json["petsc"] = o.solver.options;
     json["outcome"] = run.pins_held || run.outcome == outcome::valid ? "valid" : "stopped";
     json["reason"] = run.reason;

@@ -13,6 +13,7 @@
 
 #include <taut/impl/dist/certify_part.hpp>
 #include <taut/impl/dist/gathered_solve.hpp>
+#include <taut/impl/dist/graph_partition.hpp>
 #include <taut/impl/dist/harmonic_guess.hpp>
 #include <taut/impl/dist/objective.hpp>
 #include <taut/impl/dist/own_queue.hpp>
@@ -150,7 +151,9 @@ private:
     part<Element> made_part(const communicator& all, const mesh_piece<Element>& piece)
     {
         const auto timed = clock_.measure(&phase_seconds::distribute);
-        return part<Element>(all, piece);
+        part<Element> made(all, piece);
+        if (params_.solver.partition == partition::curve || all.size() == 1) return made;
+        return part<Element>(made, piece, scotch_owners(made));
     }
 
     /// Positions to begin with, in lengths of the run.

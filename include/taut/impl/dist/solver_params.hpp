@@ -17,18 +17,28 @@ enum class preconditioner
     block_jacobi ///< inverses of the D x D blocks of the diagonal: for tests, and what is left where the others fail
 };
 
+/// Distribution of the vertices over processes.
+enum class partition
+{
+    curve,   ///< ranges of the Morton curve, of equal size
+    ptscotch ///< parts of the mesh with few edges between them, by PTScotch of PETSc: half the halo of curved shapes
+};
+
 } // namespace taut::dist
 
 namespace taut::dist::impl
 {
 
-/// Parameters of the linear solver.
+/// Parameters of the linear solver, and of the processes that share its rows.
 struct solver_params
 {
     dist::preconditioner preconditioner = preconditioner::boomeramg;
 
     /// Options of PETSc that overrule those of the preconditioner, as `-pc_type gamg -pc_gamg_threshold 0.01`.
     std::string options = {};
+
+    /// Owners of vertices. With PTScotch the last bits of energies depend on the number of processes.
+    dist::partition partition = partition::curve;
 
     /// Throws parameter_error that names the field.
     void validate() const
@@ -47,6 +57,12 @@ namespace taut::dist
 constexpr const char* to_string(preconditioner p)
 {
     return taut::impl::name_in<preconditioner::block_jacobi>({"boomeramg", "gamg", "block-jacobi"}, p);
+}
+
+/// Stable name of a partition.
+constexpr const char* to_string(partition p)
+{
+    return taut::impl::name_in<partition::ptscotch>({"curve", "ptscotch"}, p);
 }
 
 } // namespace taut::dist

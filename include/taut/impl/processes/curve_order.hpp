@@ -87,11 +87,29 @@ struct number_ranges
         for (std::int64_t r = 0; r <= processes; ++r)
             bounds.push_back(total / processes * r + total % processes * r / processes);
     }
+    explicit number_ranges(const std::vector<std::int64_t>& sizes) : bounds{0}
+    {
+        for (const std::int64_t size : sizes) bounds.push_back(bounds.back() + size);
+    }
     std::size_t owner(std::int64_t number) const
     {
         return static_cast<std::size_t>(std::upper_bound(bounds.begin(), bounds.end(), number) - bounds.begin()) - 1;
     }
 };
+
+/// Tells the homes of vertices that their numbers follow each other, from `number` on.
+inline void tell_homes(const communicator& all, homes& at_home, const std::vector<keyed_vertex>& vertices,
+                       std::int64_t number)
+{
+    struct numbered
+    {
+        std::int64_t id, number;
+    };
+    parcels<numbered> names(all.ranks());
+    for (const auto& v : vertices) names[at_home.home(v.id)].push_back({v.id, number++});
+    for (const auto& n : all.exchange(names).items)
+        at_home.number(static_cast<std::size_t>(at_home.place(n.id))) = n.number;
+}
 
 /// The vertices of a range of the curve, in its order; all of them have numbers by their places on it, which are
 /// written to their homes.
@@ -108,20 +126,10 @@ inline std::vector<keyed_vertex> in_curve_order(const communicator& all, homes& 
     auto sorted = all.exchange(to).items;
     std::sort(sorted.begin(), sorted.end());
     std::int64_t number = all.before(static_cast<std::int64_t>(sorted.size()));
-    struct numbered
-    {
-        std::int64_t id, number;
-    };
+    tell_homes(all, at_home, sorted, number);
     for (auto& parcel : to) parcel.clear();
-    parcels<numbered> names(all.ranks());
-    for (const auto& v : sorted)
-    {
-        to[ranges.owner(number)].push_back(v);
-        names[at_home.home(v.id)].push_back({v.id, number++});
-    }
+    for (const auto& v : sorted) to[ranges.owner(number++)].push_back(v);
     sorted = {};
-    for (const auto& n : all.exchange(names).items)
-        at_home.number(static_cast<std::size_t>(at_home.place(n.id))) = n.number;
     auto owned = all.exchange(to).items;
     std::sort(owned.begin(), owned.end());
     return owned;

@@ -19,7 +19,7 @@
 namespace taut::dist::impl
 {
 
-/// The part of a mesh that one process works on: a range of the vertices along the Morton curve, which it owns; all
+/// The part of a mesh that one process works on: a range of the vertices, which it owns, along the Morton curve; all
 /// cells that touch one of these (with all their parts, where simplices are parts of cells), so that sums over the
 /// cells of an owned vertex need no other process; and the other vertices of those cells, the halo. Vertices count from
 /// 0, owned ones first, those of the halo behind them by number.
@@ -55,23 +55,23 @@ public:
         all.together([this] { require_sizes(); });
         ranges_ = number_ranges(vertices, all.size());
         const auto owned = in_curve_order(all, homes_, ranges_);
-        own = owned.size();
-        take_cells(given);
-        number_vertices();
-        std::vector<remote_place> from;
-        for (std::size_t v = own; v < numbers.size(); ++v) from.push_back(place_of(numbers[v]));
-        halo_ = vertex_exchange(all, own, from);
-        ids.resize(numbers.size());
-        points.resize(numbers.size());
-        for (std::size_t v = 0; v < own; ++v) ids[v] = owned[v].id, points[v] = owned[v].x;
-        halo_.update(ids, own);
-        double* const flat = points.empty() ? nullptr : &points[0].x;
-        halo_.copy(flat, flat + (points.empty() ? 0 : 3 * own), 3);
+        take(given, owned);
+    }
 
-        std::vector<remote_place> wanted;
-        for (const std::int64_t number : homes_.find(given.ids)) wanted.push_back(place_of(number));
-        answers_ = vertex_exchange(all, own, wanted);
-        answered_ = given.ids.size();
+    /// Collective. The mesh of another part, given again, whose owned vertices go to these processes, where they keep
+    /// their order.
+    part(const part& before, const mesh_piece<Element>& given, const std::vector<std::size_t>& owners)
+        : all(before.all), vertices(before.vertices), cells(before.cells), homes_(before.homes_)
+    {
+        parcels<keyed_vertex> to(all.ranks());
+        for (std::size_t v = 0; v < before.own; ++v)
+            to[owners[v]].push_back({static_cast<std::uint64_t>(before.numbers[v]), before.ids[v], before.points[v]});
+        auto owned = all.exchange(to).items;
+        std::sort(owned.begin(), owned.end());
+        const auto count = static_cast<std::int64_t>(owned.size());
+        ranges_ = number_ranges(all.gathered(std::vector<std::int64_t>{count}));
+        tell_homes(all, homes_, owned, all.before(count));
+        take(given, owned);
     }
 
     std::size_t size() const { return numbers.size(); } ///< vertices here
@@ -118,6 +118,27 @@ private:
         double weight = 1;
         mat<Element::dimension> edges = mat<Element::dimension>(1.0);
     };
+
+    void take(const mesh_piece<Element>& given, const std::vector<keyed_vertex>& owned)
+    {
+        own = owned.size();
+        take_cells(given);
+        number_vertices();
+        std::vector<remote_place> from;
+        for (std::size_t v = own; v < numbers.size(); ++v) from.push_back(place_of(numbers[v]));
+        halo_ = vertex_exchange(all, own, from);
+        ids.resize(numbers.size());
+        points.resize(numbers.size());
+        for (std::size_t v = 0; v < own; ++v) ids[v] = owned[v].id, points[v] = owned[v].x;
+        halo_.update(ids, own);
+        double* const flat = points.empty() ? nullptr : &points[0].x;
+        halo_.copy(flat, flat + (points.empty() ? 0 : 3 * own), 3);
+
+        std::vector<remote_place> wanted;
+        for (const std::int64_t number : homes_.find(given.ids)) wanted.push_back(place_of(number));
+        answers_ = vertex_exchange(all, own, wanted);
+        answered_ = given.ids.size();
+    }
 
     static homes checked(const communicator& all, const mesh_piece<Element>& given)
     {
