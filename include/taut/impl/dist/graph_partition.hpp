@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,8 @@ std::vector<std::pair<std::int64_t, std::int64_t>> edges_of(const part<Element>&
 template <class Element>
 std::vector<std::size_t> scotch_owners(const part<Element>& p)
 {
+    // Threads of its own would call MPI, which need not have been initialised for that.
+    setenv("SCOTCH_PTHREAD_NUMBER", "1", 0);
     const auto edges = edges_of(p);
     PetscInt *begin = nullptr, *ends = nullptr; // the matrix frees them
     require(PetscMalloc1(p.own + 1, &begin));

@@ -16,7 +16,6 @@
 #include <taut/impl/dist/graph_partition.hpp>
 #include <taut/impl/dist/harmonic_guess.hpp>
 #include <taut/impl/dist/objective.hpp>
-#include <taut/impl/dist/own_queue.hpp>
 #include <taut/impl/dist/rest_model.hpp>
 #include <taut/impl/processes/agreed_limits.hpp>
 #include <taut/impl/solve/minimize.hpp>
