@@ -6,6 +6,7 @@
 #include <taut/impl/compute/gather.hpp>
 
 #include "support/device.hpp"
+#include "support/shared_context.hpp"
 
 using taut::scalar_type;
 using taut::impl::real_buffer;
@@ -40,7 +41,7 @@ struct incidence
 
 TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in order, at every valence", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     constexpr scalar_type type = taut::impl::scalar_type_of<T>;
     for (const int D : {2, 3})
     {
@@ -72,7 +73,7 @@ TEST_CASE_TEMPLATE("gather: sums the contributions of a vertex's corners, in ord
 
 TEST_CASE("gather: agrees with the host at every width that its kernels have")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t rows = 60, cells = 128;
     std::mt19937 random(11);
     const auto host = random_reals(scalar_type::f64, 4 * 3 * cells, 3);
@@ -104,7 +105,7 @@ TEST_CASE("gather: agrees with the host at every width that its kernels have")
 
 TEST_CASE("gather: sums are formed in the type of the terms, and stored in another")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t cells = 128;
     // A vertex of the first launch, and one whose rest is summed in the second: 1 is lost in float beside 2^24.
     std::vector<taut::idx> offsets{0, 3}, cell{0, 1, 2}, corner{0, 0, 0};
@@ -134,7 +135,7 @@ TEST_CASE("gather: sums are formed in the type of the terms, and stored in anoth
 
 TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     // One vertex, in corner 1 of cell 1; the place that fillers read, cell 0, holds NaN.
     const std::vector<taut::idx> offsets = {0, 1}, cells = {1}, corners = {1};
     const taut::impl::gather sum(q, offsets, cells, corners, {2, 64, 64}, scalar_type::f64, scalar_type::f64);
@@ -153,7 +154,7 @@ TEST_CASE("gather: an absent slot reads nothing into the sum, not even a NaN")
 
 TEST_CASE("gather: layouts that do not hold the mesh are refused")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::vector<taut::idx> offsets = {0, 1}, cells = {70}, corners = {0};
     const auto make = [&](const taut::impl::gather_layout& layout)
     { return taut::impl::gather(q, offsets, cells, corners, layout, scalar_type::f64, scalar_type::f64); };
@@ -172,7 +173,7 @@ TEST_CASE("gather: layouts that do not hold the mesh are refused")
 
 TEST_CASE("gather: without any cell all sums are zero")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const taut::impl::gather nothing(q, {}, {}, {}, {3, 0, 64}, scalar_type::f32, scalar_type::f32);
     real_buffer none(q, scalar_type::f32, 0), out(q, scalar_type::f32, 192);
     nothing(none, out);

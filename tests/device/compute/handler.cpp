@@ -5,13 +5,14 @@
 #include <taut/impl/symbolic/loop.hpp>
 
 #include "support/device.hpp"
+#include "support/shared_context.hpp"
 
 using taut::buffer;
 using taut::handler;
 
 TEST_CASE_TEMPLATE("handler: a command group reads, writes and updates buffers, with a uniform", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = 300;
     const buffer<T> bx(q, std::vector<T>(n, T(2)));
     buffer<T> by(q, std::vector<T>(n, T(1))), bz(q, n);
@@ -43,7 +44,7 @@ TEST_CASE_TEMPLATE("handler: a command group reads, writes and updates buffers, 
 
 TEST_CASE("handler: a captured host value is a literal, so another value is another kernel")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     buffer<float> b(q, std::vector<float>(5, 1.0f));
     for (const float factor : {2.0f, 4.0f, 2.0f})
         q.submit(
@@ -58,7 +59,7 @@ TEST_CASE("handler: a captured host value is a literal, so another value is anot
 
 TEST_CASE("handler: rows of a graph are loops of the kernel, over more elements than there are indices")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const buffer<taut::idx> starts(q, std::vector<taut::idx>{0, 2, 2, 5});
     const buffer<taut::idx> columns(q, std::vector<taut::idx>{1, 3, 0, 1, 2});
     const buffer<float> x(q, std::vector<float>{1, 10, 100, 1000});
@@ -83,7 +84,7 @@ TEST_CASE("handler: rows of a graph are loops of the kernel, over more elements 
 
 TEST_CASE("handler: misuse is refused in words")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     buffer<float> b(q, std::vector<float>(5, 1.0f));
     const auto twice = [&](handler& h)
     {

@@ -7,6 +7,7 @@
 
 #include "support/contains.hpp"
 #include "support/device.hpp"
+#include "support/shared_context.hpp"
 
 using taut::test::contains;
 
@@ -21,7 +22,7 @@ const std::string axpy = "__kernel void axpy(const float a, __global const float
 
 TEST_CASE("kernel: typed arguments reach their places")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto k = q.kernel<float, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy");
     const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
     taut::buffer<float> y(q, std::vector<float>(64, 1.0f));
@@ -32,7 +33,7 @@ TEST_CASE("kernel: typed arguments reach their places")
 
 TEST_CASE("kernel: nothing runs over an empty range")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     taut::buffer<float> x(q, 0), y(q, 0);
     q.kernel<float, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy")(0, 1.0f, x, y);
     CHECK(q.counters().launches == 0);
@@ -40,7 +41,7 @@ TEST_CASE("kernel: nothing runs over an empty range")
 
 TEST_CASE("kernel: the local size is the one asked for, or a usual one, or the driver's for odd sizes")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     taut::buffer<taut::idx> c(q, 130);
     const auto k = q.kernel<taut::buffer<taut::idx>>(axpy, "count");
     k({128, 32}, c);
@@ -54,7 +55,7 @@ TEST_CASE("kernel: the local size is the one asked for, or a usual one, or the d
 
 TEST_CASE("kernel: equal source and options are built once, other options again")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     using k = taut::impl::typed_kernel<float, const taut::buffer<float>, taut::buffer<float>>;
     k(q, axpy, "axpy");
     k(q, axpy, "axpy");
@@ -90,7 +91,7 @@ TEST_CASE("kernel: quick builds leave optimisations out, and results as they are
 
 TEST_CASE("kernel: programs that say they call few functions are built without a long header, others with it")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto without_header = [&](const std::string& options, const std::string& value)
     {
         const std::string source =
@@ -190,7 +191,7 @@ TEST_CASE("kernel: kernels that are compiled elsewhere are told once and waited 
 
 TEST_CASE("kernel: a compiler's refusal shows kernel, log, device and the numbered lines around the error")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::string source =
         "#line 1 \"kernels/broken.cl\"\n// one\n// two\n// three\n"
         "__kernel void broken(__global float* x) { x[0] = nowhere; }\n// five\n// six\n// seven\n";
@@ -230,7 +231,7 @@ TEST_CASE("kernel: excerpts number lines as the compiler does")
 
 TEST_CASE("kernel: wrong names, argument counts and types are refused in words")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     CHECK_THROWS_AS(q.kernel<float>(axpy, "absent"), taut::device_error);
     CHECK_THROWS_AS(q.kernel<float>(axpy, "axpy"), taut::device_error);
 
@@ -249,7 +250,7 @@ TEST_CASE("kernel: wrong names, argument counts and types are refused in words")
 
 TEST_CASE("kernel: a scalar of another size is refused by name")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto k = q.kernel<double, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy");
     taut::buffer<float> x(q, 64), y(q, 64);
     try
@@ -273,7 +274,7 @@ TEST_CASE("kernel: a buffer of another queue's context is refused")
 
 TEST_CASE("kernel: arguments are bound by name in any order")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const taut::kernel k(q, axpy, "axpy");
     const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
     taut::buffer<float> y(q, std::vector<float>(64, 1.0f));
@@ -288,7 +289,7 @@ TEST_CASE("kernel: arguments are bound by name in any order")
 
 TEST_CASE("kernel: a double narrows to a float parameter, by name")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const taut::kernel k(q, axpy, "axpy");
     const taut::impl::real_buffer x(q, taut::scalar_type::f32, std::vector<double>(64, 1.0));
     taut::impl::real_buffer y(q, taut::scalar_type::f32, std::vector<double>(64, 0.0));
@@ -298,7 +299,7 @@ TEST_CASE("kernel: a double narrows to a float parameter, by name")
 
 TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::string source = "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n"
                                "__kernel void scale(const REAL factor, __global REAL* restrict x)\n"
                                "{ x[get_global_id(0)] *= factor; }\n";
@@ -318,7 +319,7 @@ TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
 
 TEST_CASE("kernel: a missing, unknown, repeated or wrongly typed argument is refused by its name")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const taut::kernel k(q, axpy, "axpy"), count(q, axpy, "count");
     const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
     const taut::buffer<double> wide(q, 64);
@@ -352,7 +353,7 @@ TEST_CASE("kernel: a missing, unknown, repeated or wrongly typed argument is ref
 
 TEST_CASE("kernel: another number of arguments is refused by position, too")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const taut::kernel set(q, "__kernel void set(__global float* x, const float a) { x[get_global_id(0)] = a; }",
                            "set");
     taut::buffer<float> x(q, 64);

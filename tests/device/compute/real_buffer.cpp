@@ -8,6 +8,7 @@
 #include <taut/impl/compute/real_buffer.hpp>
 
 #include "support/device.hpp"
+#include "support/shared_context.hpp"
 
 using taut::scalar_type;
 using taut::impl::host_reals;
@@ -23,7 +24,7 @@ constexpr scalar_type real_types[] = {scalar_type::f32, scalar_type::f64};
 
 TEST_CASE("real_buffer: what is uploaded is downloaded, in the precision of the buffer")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     for (const scalar_type type : real_types)
     {
         CAPTURE(static_cast<int>(type));
@@ -54,7 +55,7 @@ TEST_CASE("real_buffer: what is uploaded is downloaded, in the precision of the 
 
 TEST_CASE("real_buffer: numbers that are not finite stay so")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const double infinity = std::numeric_limits<double>::infinity();
     const std::vector<double> values = {infinity, -infinity, -0.0, std::numeric_limits<double>::quiet_NaN()};
     for (const scalar_type type : real_types)
@@ -69,7 +70,7 @@ TEST_CASE("real_buffer: numbers that are not finite stay so")
 
 TEST_CASE("real_buffer: fill and copy, whole and at an offset, without a wait")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     for (const scalar_type type : real_types)
     {
         real_buffer a(q, type, 4), b(q, type, 2);
@@ -87,7 +88,7 @@ TEST_CASE("real_buffer: fill and copy, whole and at an offset, without a wait")
 
 TEST_CASE("real_buffer: nothing is a legal size")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     for (const scalar_type type : real_types)
     {
         real_buffer b(q, type, 0), c(q, type, std::vector<double>{});
@@ -110,7 +111,7 @@ TEST_CASE("real_buffer: nothing is a legal size")
 
 TEST_CASE("real_buffer: a copy between float and double is refused, and so are transfers outside of it")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     real_buffer narrow(q, scalar_type::f32, 4), wide(q, scalar_type::f64, 4);
     narrow.fill(1);
     wide.fill(2);
@@ -146,7 +147,7 @@ TEST_CASE("real_buffer: float works on a device without fp64, double is refused"
 
 TEST_CASE("real_buffer: another takes its place, of another type and size")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     {
         real_buffer a(q, scalar_type::f64, std::vector<double>{1, 2, 3});
         real_buffer b = std::move(a);
@@ -162,7 +163,7 @@ TEST_CASE("real_buffer: another takes its place, of another type and size")
 
 TEST_CASE("real_buffer: a command group computes in the precision of its buffers")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     for (const scalar_type type : real_types)
     {
         const auto hx = random_reals(type, 300, 2), hy = random_reals(type, 300, 3);

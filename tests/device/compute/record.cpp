@@ -6,6 +6,7 @@
 #include <taut/impl/compute/record.hpp>
 
 #include "support/device.hpp"
+#include "support/shared_context.hpp"
 
 using taut::buffer;
 using taut::test::random_values;
@@ -13,7 +14,7 @@ using taut::test::sized_count;
 
 TEST_CASE_TEMPLATE("trace: a recorded kernel computes what the lambda says, for any count", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto axpy = taut::trace<taut::in<T>, taut::inout<T>, taut::uniform<T>>(
         q, "axpy", [](auto i, auto x, auto y, auto a) { y[i] = a * x[i] + y[i]; });
     for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{255}, sized_count(10000, 513)})
@@ -37,7 +38,7 @@ TEST_CASE_TEMPLATE("trace: a recorded kernel computes what the lambda says, for 
 
 TEST_CASE("trace: an argument of each kind, mixed precision and an index load")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto k = taut::trace<taut::in<taut::idx>, taut::in<double>, taut::out<float>, taut::uniform<taut::idx>>(
         q, "pick", [](auto i, auto at, auto x, auto y, auto shift) { y[i] = taut::cast<float>(x[at[i] + shift]); });
     const buffer<taut::idx> at(q, std::vector<taut::idx>{3, 0, 2});
@@ -51,7 +52,7 @@ TEST_CASE("trace: an argument of each kind, mixed precision and an index load")
 
 TEST_CASE("trace: a recording whose arguments are not those of the tags is refused")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto record = [&](taut::impl::kernel_form form)
     {
         taut::recording r;
@@ -76,7 +77,7 @@ TEST_CASE("trace: a recording whose arguments are not those of the tags is refus
 
 TEST_CASE("trace: equal recordings share one build, another captured value is another kernel")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto scaled = [&](double factor)
     { return taut::trace<taut::inout<double>>(q, "scaled", [=](auto i, auto x) { x[i] *= factor; }); };
     buffer<double> x(q, std::vector<double>{1, 2});
@@ -90,7 +91,7 @@ TEST_CASE("trace: equal recordings share one build, another captured value is an
 
 TEST_CASE("trace: recordings in one program are built once and compute what each does alone")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto form = q.device().is_cpu() ? taut::impl::kernel_form::run : taut::impl::kernel_form::guarded;
     // Kernels with and without double, optimised and not, that share helper functions.
     const auto record = [&]<class T>(T, const std::string& name, int power)
@@ -138,7 +139,7 @@ TEST_CASE("trace: recordings in one program are built once and compute what each
 
 TEST_CASE_TEMPLATE("trace: recordings call no functions but the few that are declared", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     taut::recording r;
     const auto x = r.in<T>("x");
     auto y = r.out<T>("y");
@@ -155,7 +156,7 @@ TEST_CASE_TEMPLATE("trace: recordings call no functions but the few that are dec
 
 TEST_CASE("trace: a buffer that is written must not be bound twice")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     buffer<double> x(q, std::vector<double>(10, 1.0)), y(q, std::vector<double>(10, 2.0));
     const auto add = taut::trace<taut::in<double>, taut::in<double>, taut::out<double>>(
         q, "add", [](auto i, auto a, auto b, auto c) { c[i] = a[i] + b[i]; });
@@ -179,7 +180,7 @@ TEST_CASE("trace: double is refused on a device without fp64, also where it is o
 
 TEST_CASE("recorded_kernel: formulas of doubles run in the precision of the recording, with arguments by name")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     for (const auto type : {taut::scalar_type::f32, taut::scalar_type::f64})
     {
         taut::recording r(type);
@@ -210,7 +211,7 @@ TEST_CASE("recorded_kernel: formulas of doubles run in the precision of the reco
 
 TEST_CASE("recorded_kernel: a missing, unknown, repeated or wrongly typed argument is refused by its name")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const auto form = q.device().is_cpu() ? taut::impl::kernel_form::run : taut::impl::kernel_form::guarded;
     taut::recording r(taut::scalar_type::f32);
     const auto x = r.in<double>("x", taut::scalar_type::f32);

@@ -7,6 +7,7 @@
 #include <taut/impl/compute/reductions.hpp>
 
 #include "support/device.hpp"
+#include "support/shared_context.hpp"
 
 using taut::buffer;
 using taut::reductions;
@@ -54,7 +55,7 @@ TEST_CASE("reductions: a plan cuts n into whole blocks that cover it, at most as
 
 TEST_CASE_TEMPLATE("reductions: sums, dots and minima agree with the host at every size and form", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     for (const auto& plan : forms)
     {
         reductions r(q, plan);
@@ -84,7 +85,7 @@ TEST_CASE_TEMPLATE("reductions: sums, dots and minima agree with the host at eve
 
 TEST_CASE_TEMPLATE("reductions: segments are summed apart", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t length = sized_count(9001, 1500), stride = length + 5, count = 5, start = 3;
     const auto host = random_values<T>(start + count * stride, 3);
     const buffer<T> x(q, host);
@@ -104,7 +105,7 @@ TEST_CASE_TEMPLATE("reductions: segments are summed apart", T, float, double)
 
 TEST_CASE_TEMPLATE("reductions: every left with every right vector, at every shape of tile", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(10007, 700);
     std::vector<std::vector<T>> host;
     std::vector<buffer<T>> device;
@@ -139,7 +140,7 @@ TEST_CASE_TEMPLATE("reductions: every left with every right vector, at every sha
 
 TEST_CASE_TEMPLATE("reductions: a NaN anywhere makes the minimum NaN, an infinity does not", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(20011, 3001);
     for (const auto& plan : forms)
     {
@@ -162,7 +163,7 @@ TEST_CASE_TEMPLATE("reductions: a NaN anywhere makes the minimum NaN, an infinit
 TEST_CASE_TEMPLATE("reductions: a limit is a fraction of a minimum, at most what is asked, NaN if that is", T, float,
                    double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(20011, 3001);
     auto host = random_values<T>(n, 4);
     for (T& x : host) x = std::abs(x) + T(0.5);
@@ -191,7 +192,7 @@ TEST_CASE_TEMPLATE("reductions: a limit is a fraction of a minimum, at most what
 
 TEST_CASE_TEMPLATE("reductions: repeat bit for bit, alone or among others", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(50021, 5003);
     const buffer<T> x(q, random_values<T>(n, 5)), y(q, random_values<T>(n, 6));
     for (const auto& plan : forms)
@@ -214,7 +215,7 @@ TEST_CASE_TEMPLATE("reductions: repeat bit for bit, alone or among others", T, f
 
 TEST_CASE("reductions: many share one wait, and a new round begins after it")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     buffer<double> x(q, 100);
     x.fill(0.25);
     reductions r(q);
@@ -236,7 +237,7 @@ TEST_CASE("reductions: many share one wait, and a new round begins after it")
 
 TEST_CASE("reductions: float sums keep double accuracy")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(1000000, 20000);
     buffer<float> x(q, n);
     x.fill(0.1f);
@@ -265,7 +266,7 @@ TEST_CASE("reductions: float works on a device without fp64, to float accuracy")
 
 TEST_CASE_TEMPLATE("reductions: a buffer whose precision is data has the same results bit for bit", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     constexpr auto type = taut::impl::scalar_type_of<T>;
     const std::size_t n = sized_count(9001, 1500);
     const auto hx = random_values<T>(n, 9), hy = random_values<T>(n, 10);
@@ -294,7 +295,7 @@ TEST_CASE_TEMPLATE("reductions: a buffer whose precision is data has the same re
 
 TEST_CASE("reductions: ranges outside of a buffer are refused")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const buffer<double> x(q, std::vector<double>(10, 1.0)), y(q, std::vector<double>(9, 1.0));
     reductions r(q);
     CHECK_THROWS_AS(r.dot(x, y, 10), taut::parameter_error);

@@ -7,6 +7,7 @@
 #include <taut/impl/compute/vector_space.hpp>
 
 #include "support/device.hpp"
+#include "support/shared_context.hpp"
 
 using taut::device_vectors;
 using taut::scalar_type;
@@ -29,7 +30,7 @@ double tolerance()
 
 TEST_CASE_TEMPLATE("device_vectors: a new vector is zero, and its padding is and stays zero", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const device_vectors space(q, scalar_type_of<T>, 1500);
     auto x = space.make();
     CHECK(x.size() == 1500);
@@ -48,7 +49,7 @@ TEST_CASE_TEMPLATE("device_vectors: a new vector is zero, and its padding is and
 
 TEST_CASE_TEMPLATE("device_vectors: axpby, with b = 0 not reading y", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(3000, 200);
     const device_vectors space(q, scalar_type_of<T>, n);
     const auto hx = random_reals(scalar_type_of<T>, n, 1), hy = random_reals(scalar_type_of<T>, n, 2);
@@ -70,7 +71,7 @@ TEST_CASE_TEMPLATE("device_vectors: axpby, with b = 0 not reading y", T, float, 
 
 TEST_CASE_TEMPLATE("device_vectors: multi_dot agrees with dot, in one wait", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(20000, 600);
     const device_vectors space(q, scalar_type_of<T>, n);
     std::vector<device_vector> v;
@@ -93,7 +94,7 @@ TEST_CASE_TEMPLATE("device_vectors: multi_dot agrees with dot, in one wait", T, 
 
 TEST_CASE_TEMPLATE("device_vectors: linear combinations of any number of vectors", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(2500, 100);
     const device_vectors space(q, scalar_type_of<T>, n);
     std::vector<std::vector<double>> host;
@@ -133,7 +134,7 @@ TEST_CASE_TEMPLATE("device_vectors: linear combinations of any number of vectors
 
 TEST_CASE_TEMPLATE("device_vectors: a step from double positions keeps their precision", T, float, double)
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const std::size_t n = sized_count(1025, 65);
     const device_vectors space(q, scalar_type_of<T>, n);
     const auto hd = random_reals(space.type(), n, 3);
@@ -167,7 +168,7 @@ TEST_CASE("device_vectors: float positions step on a device without fp64")
 
 TEST_CASE("device_vectors: vectors, reductions and gathers of a type share one build")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const device_vectors space(q, scalar_type::f32, 100);
     auto x = space.make(), y = space.make();
     auto point = space.make_points(scalar_type::f64);
@@ -195,7 +196,7 @@ TEST_CASE("device_vectors: vectors, reductions and gathers of a type share one b
 
 TEST_CASE("device_vectors: a vector of another type is refused")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     for (const scalar_type type : {scalar_type::f32, scalar_type::f64})
     {
         const device_vectors space(q, type, 100);
@@ -221,7 +222,7 @@ TEST_CASE("device_vectors: a vector of another type is refused")
 
 TEST_CASE("device_vectors: the space of no dimension")
 {
-    taut::queue q;
+    taut::queue q(taut::test::shared_context());
     const device_vectors space(q, scalar_type::f64, 0);
     auto x = space.make(), y = space.make();
     space.axpby(1, x, 1, y);

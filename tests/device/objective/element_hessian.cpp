@@ -7,6 +7,7 @@
 
 #include <support/mips_power.hpp>
 #include <support/objective_cases.hpp>
+#include <support/shared_context.hpp>
 #include <support/symmetric_eigen.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
@@ -266,7 +267,7 @@ TEST_CASE("element Hessian: the slots are a bijection of the pairs of coordinate
 
 TEST_CASE("element Hessian: it is the derivative of the gradient, by finite differences on the host")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto e = generator().mixture(64, 0.5);
     for (const hessian_energy& tried : hessian_energies())
     {
@@ -303,7 +304,7 @@ TEST_CASE("element Hessian: it is the derivative of the gradient, by finite diff
 TEST_CASE_TEMPLATE("element Hessian: as it is, projected and absolute are those of the host, slivers included", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
-    queue q;
+    queue q(test::shared_context());
     // In float a ratio of stretches of 1e6 leaves no digit of det S.
     const double decades = A::types().vector == scalar_type::f64 ? 3 : 1.5;
     const auto e = generator().mixture(512, decades);
@@ -321,7 +322,7 @@ TEST_CASE_TEMPLATE("element Hessian: as it is, projected and absolute are those 
 TEST_CASE_TEMPLATE("element Hessian: projected is positive semi-definite to rounding on any element", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>)
 {
-    queue q;
+    queue q(test::shared_context());
     const auto e = generator().mixture(4096, 3);
     for (const hessian_energy& tried : hessian_energies())
     {
@@ -342,7 +343,7 @@ TEST_CASE_TEMPLATE("element Hessian: projected is positive semi-definite to roun
 
 TEST_CASE("element Hessian: the twist mode of the isometric energy has its closed form")
 {
-    queue q;
+    queue q(test::shared_context());
     generator random;
     elements e;
     std::vector<vec2> stretches;

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/isometric.hpp>
@@ -23,7 +24,7 @@ struct held_setting
 {
     mesh<triangle> surface = test::bumpy(test::sized(14, 4), 0.25, 2);
     fixed_marks<2> held{surface.points().size()}; ///< in the user's numbers
-    queue q;
+    queue q{test::shared_context()};
 
     held_setting()
     {

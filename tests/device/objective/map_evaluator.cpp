@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/objective/map_evaluator.hpp>
@@ -49,7 +50,7 @@ TEST_CASE_TEMPLATE("map evaluator: the gradient is that of the values, and the H
 {
     constexpr int D = Element::dimension;
     const auto m = sample<Element>();
-    queue q;
+    queue q(test::shared_context());
     map_evaluator<Element> f(q, m, energy::isometric{});
     const auto x = near_rest<Element>(m, 1);
     const std::size_t n = x.size();
@@ -93,7 +94,7 @@ TEST_CASE_TEMPLATE("map evaluator: the gradient is that of the values, and the H
 TEST_CASE("map evaluator: steps up to max_step stay inside, and beyond it the value is infinite")
 {
     const auto m = sample<triangle>();
-    queue q;
+    queue q(test::shared_context());
     map_evaluator<triangle> f(q, m, energy::isometric{});
     auto x = near_rest<triangle>(m, 1);
     std::vector<vec2> d(x.size(), vec2(0));
@@ -115,7 +116,7 @@ TEST_CASE("map evaluator: steps up to max_step stay inside, and beyond it the va
 TEST_CASE("map evaluator: the projected Hessian is positive semi-definite where the other one is not")
 {
     const auto m = sample<triangle>();
-    queue q;
+    queue q(test::shared_context());
     map_evaluator<triangle> f(q, m, energy::isometric{});
     auto x = near_rest<triangle>(m, 1);
     for (vec2& p : x) p *= 3.0; // stretched: indefinite

@@ -7,6 +7,7 @@
 #include <support/meshes.hpp>
 #include <support/objective_cases.hpp>
 #include <support/reference_problem.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
@@ -43,7 +44,7 @@ struct value_fixture
     mesh<triangle> surface = test::bumpy(test::sized(14, 3), 0.4, 5);
     std::vector<vec2> start = barycentric_map(surface).uv;
     std::shared_ptr<const layout<triangle>> local;
-    queue q;
+    queue q{test::shared_context()};
 
     explicit value_fixture(bool pin_some = false)
     {
@@ -269,7 +270,7 @@ TEST_CASE(
 {
     const auto rest = test::cube(2);
     const auto local = std::make_shared<const layout<tetrahedron>>(rest);
-    queue q;
+    queue q(test::shared_context());
     const any_energy energy = energy::isometric{};
     const auto text = element_kernels<tetrahedron>::record_gradient(energy, {}, kernel_form::guarded);
     CHECK(text.source.find("corner_gradient") != std::string::npos);

@@ -7,6 +7,7 @@
 #include <support/meshes.hpp>
 #include <support/mips_power.hpp>
 #include <support/objective_cases.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
@@ -29,7 +30,7 @@ struct levels_fixture
     std::vector<bool> pinned;
     mesh_levels<triangle> levels;
     std::vector<vec2> start;
-    queue q;
+    queue q{test::shared_context()};
 
     explicit levels_fixture(mesh<triangle> m, bool pin_some = false)
         : surface(std::move(m)),

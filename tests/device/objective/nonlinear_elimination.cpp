@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/objective/mesh_levels.hpp>
@@ -45,7 +46,7 @@ struct disturbed
     mesh<triangle> surface;
     mesh_levels<triangle> levels;
     any_energy energy;
-    queue q;
+    queue q{test::shared_context()};
     newton_objective<triangle> f;
     newton_objective<triangle>::point x;
     double least;

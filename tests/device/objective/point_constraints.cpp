@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/isometric.hpp>
@@ -27,7 +28,7 @@ struct setting
     mesh<triangle> finest = levels.level(0);
     std::vector<vec2> start = barycentric_map(finest, facets(finest), {.stretch_rounds = 3}).uv;
     point_constraints<2> wanted;
-    queue q;
+    queue q{test::shared_context()};
 
     setting()
     {

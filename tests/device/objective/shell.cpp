@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 
 #include <taut/impl/energy/shell.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
@@ -27,7 +28,7 @@ struct shell_fixture
     thin_shell shell;
     any_energy energy;
     mesh_levels<hinge> levels;
-    queue q;
+    queue q{test::shared_context()};
     objective_type objective;
     std::vector<vec3> rest;
 

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/shape.hpp>
@@ -54,7 +55,7 @@ struct sliding_cube
     std::pair<std::vector<vec3>, solve::report> solved(const std::vector<vec3>& points,
                                                        const point_constraints<3>& constraints) const
     {
-        queue q;
+        queue q(test::shared_context());
         const mesh<tetrahedron> m(points, flat.cells());
         const mesh_levels<tetrahedron> levels(m);
         const auto ideal = regular_elements<tetrahedron>(flat.cells().size(), 1.0);

@@ -14,6 +14,7 @@
 #include <support/meshes.hpp>
 #include <support/mips_power.hpp>
 #include <support/reference_problem.hpp>
+#include <support/shared_context.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
 #include <taut/impl/energy/isometric.hpp>
@@ -44,7 +45,7 @@ struct stiff_along_x
 /// angle.
 struct fixture
 {
-    queue q;
+    queue q{test::shared_context()};
     mesh<tetrahedron> volume;
     idx free = 0;
     std::shared_ptr<const layout<tetrahedron>> local;

@@ -8,6 +8,7 @@
 #include <support/meshes.hpp>
 #include <support/objective_cases.hpp>
 #include <support/reference_problem.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
@@ -159,7 +160,7 @@ TEST_CASE("vertex relaxation: a schedule has the free vertices of the cells, nei
 TEST_CASE_TEMPLATE("vertex relaxation: a sliver recovers, and nothing but its vertices moves", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
 {
-    queue q;
+    queue q(test::shared_context());
     for (const int n : {6, test::sized(20, 9)})
     {
         relaxation_fixture s(n, 1, 1e-3, 1);
@@ -192,7 +193,7 @@ TEST_CASE_TEMPLATE("vertex relaxation: a sliver recovers, and nothing but its ve
 TEST_CASE_TEMPLATE("vertex relaxation: the energy falls call by call, for any energy, and repeats bit for bit", A,
                    arithmetic<precision::fp64>, arithmetic<precision::mixed>, arithmetic<precision::fp32>)
 {
-    queue q;
+    queue q(test::shared_context());
     const relaxation_fixture s(test::sized(18, 8), 7, 1e-2);
     REQUIRE(s.slivers > 3);
     using namespace taut::energy;
@@ -221,7 +222,7 @@ TEST_CASE_TEMPLATE("vertex relaxation: the energy falls call by call, for any en
 
 TEST_CASE("vertex relaxation: one sweep is the best multiple of the damped Newton step of the star")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const int n : {5, 9})
         for (const any_energy& energy : {any_energy(energy::isometric{}), any_energy(stiff_along_first{})})
         {
@@ -278,7 +279,7 @@ TEST_CASE("vertex relaxation: one sweep is the best multiple of the damped Newto
 
 TEST_CASE("vertex relaxation: without bad elements, or outside of the domain, nothing changes")
 {
-    queue q;
+    queue q(test::shared_context());
     relaxation_fixture s(test::sized(12, 6), 10, 1e-2);
     auto relax = make(q, s, energy::isometric{});
     auto x = s.point(q);
@@ -305,7 +306,7 @@ TEST_CASE("vertex relaxation: without bad elements, or outside of the domain, no
 
 TEST_CASE("vertex relaxation: all pinned is legal, and meshes share kernels")
 {
-    queue q;
+    queue q(test::shared_context());
     using kernels = relaxation_kernels<triangle>;
     const auto types = types_of(precision::mixed);
     const auto shared = std::make_shared<const kernels>(q, energy::isometric{}, types);
@@ -337,7 +338,7 @@ TEST_CASE("vertex relaxation: all pinned is legal, and meshes share kernels")
 
 TEST_CASE("vertex relaxation: a flat tetrahedron recovers")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto rest = test::cube(3);
     const auto local = std::make_shared<const layout<tetrahedron>>(rest);
     auto start = rest.points();

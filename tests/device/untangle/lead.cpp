@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/untangle/untangle.hpp>
@@ -40,7 +41,7 @@ TEST_CASE("lead: handles of a volume go to their places from the shape at rest, 
 {
     const auto problem = twisted_ends();
     REQUIRE(certify<3>(problem.rest.cells(), std::span<const vec3>(problem.initial)).flipped > 0);
-    queue q;
+    queue q(test::shared_context());
     const auto r = untangle(q, problem, {.stages = {"lead"}});
     REQUIRE(r);
     CHECK(r.stage == "lead");
@@ -53,7 +54,7 @@ TEST_CASE("lead: handles of a volume go to their places from the shape at rest, 
 TEST_CASE("lead: without a positive shape at rest, or time, it gives up")
 {
     auto problem = twisted_ends();
-    queue q;
+    queue q(test::shared_context());
     untangle_params params;
     params.stages = {"lead"};
     params.limits.observer = [](const progress&) { return false; };

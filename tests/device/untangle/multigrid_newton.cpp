@@ -11,6 +11,7 @@
 #include <support/size.hpp>
 
 #include <support/regularized_sum.hpp>
+#include <support/shared_context.hpp>
 #include <taut/impl/untangle/element_newton.hpp>
 #include <taut/impl/untangle/untangle_on_device.hpp>
 
@@ -94,7 +95,7 @@ TEST_CASE_TEMPLATE("multigrid_newton: its energy is that of the host, and other 
                    triangle, tetrahedron)
 {
     constexpr int D = Element::dimension;
-    queue q;
+    queue q(test::shared_context());
     const auto p = scrambled<Element>(test::sized(D == 2 ? 20 : 5, 3));
     multigrid_newton<Element> newton(q, multigrid_newton<Element>::trace(q), towards_rest(p));
     impl::regularized_sum<Element> host(p.rest, p.held);
@@ -118,7 +119,7 @@ TEST_CASE_TEMPLATE("multigrid_newton: its energy is that of the host, and other 
 TEST_CASE_TEMPLATE("multigrid_newton: steps lower the energy and leave what is held, single coordinates too", Element,
                    triangle, tetrahedron)
 {
-    queue q;
+    queue q(test::shared_context());
     auto p = scrambled<Element>(test::sized(Element::dimension == 2 ? 20 : 5, 3));
     for (std::size_t v = 0; v < p.held.size(); v += 3) p.held[v] |= 1; // one coordinate of some inside
     multigrid_newton<Element> newton(q, multigrid_newton<Element>::trace(q), towards_rest(p));
@@ -138,7 +139,7 @@ TEST_CASE_TEMPLATE("multigrid_newton: steps lower the energy and leave what is h
 
 TEST_CASE("multigrid_newton: converges to what the direct solver does, with springs of other stiffness a coordinate")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto p = turned_frame(test::sized(24, 10), 0.3);
     auto problem = towards_rest(p);
     const auto inside = static_cast<idx>(p.initial.size() / 2 + 4);
@@ -159,7 +160,7 @@ TEST_CASE("multigrid_newton: converges to what the direct solver does, with spri
 
 TEST_CASE("multigrid_newton: a barrier keeps positive what is")
 {
-    queue q;
+    queue q(test::shared_context());
     auto p = scrambled<triangle>(12);
     p.initial = impl::harmonic_start(p, p.initial);
     for (std::size_t v = 0; v < p.held.size(); v += 2)
@@ -175,7 +176,7 @@ TEST_CASE("multigrid_newton: a barrier keeps positive what is")
 
 TEST_CASE("newton stage: solves on the device what the harmonic map does not")
 {
-    queue q;
+    queue q(test::shared_context());
     SUBCASE("in the plane")
     {
         const auto p = turned_frame(test::sized(60, 60), 1.2); // above the size that goes to the host
@@ -196,7 +197,7 @@ TEST_CASE("newton stage: solves on the device what the harmonic map does not")
 
 TEST_CASE("multigrid_newton: flat triangles at rest")
 {
-    queue q;
+    queue q(test::shared_context());
     auto p = scrambled<triangle>(10);
     auto points = p.rest.points();
     points[60] = points[61];

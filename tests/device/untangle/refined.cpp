@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <support/infeasible_problems.hpp>
+#include <support/shared_context.hpp>
 #include <support/untangle_checks.hpp>
 #include <taut/impl/untangle/untangle_refined.hpp>
 
@@ -13,7 +14,7 @@ namespace
 template <class Element>
 void check_mended(const untangle_problem<Element>& problem)
 {
-    queue q;
+    queue q(test::shared_context());
     REQUIRE(untangle(q, problem).outcome == untangle_outcome::infeasible);
     const auto [result, refined] = untangle_refined(q, problem);
     REQUIRE(result);
@@ -36,7 +37,7 @@ TEST_CASE("untangle_refined: where no map is found, and nothing is proved, what 
 {
     const auto problem = test::cone_in_a_u();
     REQUIRE(!find_infeasibility(problem));
-    queue q;
+    queue q(test::shared_context());
     const auto [result, refined] = untangle_refined(q, problem, {.rounds = 1}, {.rounds = 2, .most_growth = 3});
     test::check_typed(refined.problem, result);
     CHECK(refined.rounds > 0);
@@ -49,7 +50,7 @@ TEST_CASE("untangle_refined: a mesh that has a solution is not split")
 {
     auto problem = test::reflex_quad();
     problem.initial[0] = vec2(0, 0);
-    queue q;
+    queue q(test::shared_context());
     const auto r = untangle_refined(q, problem);
     CHECK(r.result);
     CHECK(r.refined.how.empty());
@@ -60,7 +61,7 @@ TEST_CASE("untangle_refined: what splits do not mend is infeasible, with the rea
 {
     auto problem = test::folded_edge();
     for (auto& x : problem.initial) x.x = -x.x;
-    queue q;
+    queue q(test::shared_context());
     const auto r = untangle_refined(q, problem).result;
     CHECK(r.outcome == untangle_outcome::infeasible);
     CHECK(r.reason.find("no split inside") != std::string::npos);
@@ -69,7 +70,7 @@ TEST_CASE("untangle_refined: what splits do not mend is infeasible, with the rea
 TEST_CASE("untangle_refined: who says no is not asked again")
 {
     const auto problem = test::fan_in_a_u();
-    queue q;
+    queue q(test::shared_context());
     untangle_params params;
     int asked = 0;
     params.limits.observer = [&](const progress&) { return ++asked < 0; };

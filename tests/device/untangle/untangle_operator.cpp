@@ -14,6 +14,7 @@
 #include <support/size.hpp>
 
 #include <support/operator_step.hpp>
+#include <support/shared_context.hpp>
 #include <taut/impl/untangle/device/untangle_operator.hpp>
 
 namespace
@@ -120,7 +121,7 @@ TEST_CASE_TEMPLATE(
     "untangling operator: a move on the device is that of the host, in the form for CPUs and in that for GPUs", Element,
     triangle, tetrahedron)
 {
-    queue q;
+    queue q(test::shared_context());
     const auto problem = [](unsigned seed)
     {
         if constexpr (Element::dimension == 2)
@@ -175,7 +176,7 @@ TEST_CASE("untangling operator: the step of the host is downhill along its objec
 
 TEST_CASE("untangling operator: a square with a scrambled interior becomes injective, its rim in place")
 {
-    queue q;
+    queue q(test::shared_context());
     const int n = test::sized(32, 6);
     auto p = boxed(test::grid(n, n));
     jitter(p, 0.2, 3);
@@ -193,7 +194,7 @@ TEST_CASE("untangling operator: a square with a scrambled interior becomes injec
 
 TEST_CASE("untangling operator: a collapsed interior unfolds")
 {
-    queue q;
+    queue q(test::shared_context());
     const int n = test::sized(16, 4);
     auto p = boxed(test::grid(n, n));
     for (std::size_t v = 0; v < p.held.size(); ++v)
@@ -205,7 +206,7 @@ TEST_CASE("untangling operator: a collapsed interior unfolds")
 
 TEST_CASE("untangling operator: a jittered box of tetrahedra becomes injective")
 {
-    queue q;
+    queue q(test::shared_context());
     const int n = test::sized(8, 3);
     auto p = boxed(test::cube(n));
     jitter(p, 0.6 / n, 5);
@@ -217,7 +218,7 @@ TEST_CASE("untangling operator: a jittered box of tetrahedra becomes injective")
 
 TEST_CASE("untangling operator: a coordinate held alone stays, the other one moves")
 {
-    queue q;
+    queue q(test::shared_context());
     const int n = test::sized(12, 4);
     auto p = boxed(test::grid(n, n));
     // Vertices of the rim slide along it, which Algorithm 2 does not know.
@@ -237,7 +238,7 @@ TEST_CASE("untangling operator: a coordinate held alone stays, the other one mov
 
 TEST_CASE("untangling operator: held coordinates are those of the problem, whatever the start says")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto p = boxed(test::grid(5, 5));
     auto start = p.initial;
     for (auto& x : start) x += vec2(10.0);
@@ -248,7 +249,7 @@ TEST_CASE("untangling operator: held coordinates are those of the problem, whate
 
 TEST_CASE("untangling operator: a map without folds comes back bit for bit")
 {
-    queue q;
+    queue q(test::shared_context());
     auto p = boxed(test::grid(6, 6));
     for (auto& x : p.initial) x = x / 3.0 + vec2(0.1);
     const auto r = untangle_operator<triangle>(q, p).run(p.initial);
@@ -260,7 +261,7 @@ TEST_CASE("untangling operator: a map without folds comes back bit for bit")
 
 TEST_CASE("untangling operator: a margin lifts the smallest determinant")
 {
-    queue q;
+    queue q(test::shared_context());
     const int n = test::sized(16, 5);
     auto p = boxed(test::grid(n, n));
     jitter(p, 1.0 / n, 13);
@@ -283,7 +284,7 @@ TEST_CASE("untangling operator: a margin lifts the smallest determinant")
 
 TEST_CASE("untangling operator: what is pinned upside down ends the run with inverted elements, not with a fold hidden")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto p = with_pinned_fold(8);
     for (const auto schedule : {operator_schedule::literal, operator_schedule::patience, operator_schedule::constant})
     {
@@ -303,7 +304,7 @@ TEST_CASE("untangling operator: what is pinned upside down ends the run with inv
 
 TEST_CASE("untangling operator: schedules differ in how they shorten the step")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto p = with_pinned_fold(8);
     untangle_operator<triangle> untangle(q, p);
     operator_params how;
@@ -350,7 +351,7 @@ TEST_CASE("untangling operator: what an iteration decides on the device is what 
     };
     const auto bits = [](float x) { return std::bit_cast<taut::idx>(x); };
     const auto number = [](taut::idx x) { return std::bit_cast<float>(x); };
-    queue q;
+    queue q(test::shared_context());
     std::mt19937 random(3);
     const auto below = [&](int n) { return static_cast<taut::idx>(random() % static_cast<unsigned>(n)); };
     for (const int items : {1, 256})
@@ -421,7 +422,7 @@ TEST_CASE("untangling operator: what an iteration decides on the device is what 
 
 TEST_CASE("untangling operator: the same input gives the same map")
 {
-    queue q;
+    queue q(test::shared_context());
     auto p = boxed(test::grid(8, 8));
     jitter(p, 0.2, 17);
     untangle_operator<triangle> untangle(q, p);
@@ -435,7 +436,7 @@ TEST_CASE("untangling operator: the same input gives the same map")
 
 TEST_CASE("untangling operator: the observer and the time limit end a run with the best map so far")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto p = with_pinned_fold(8);
     untangle_operator<triangle> untangle(q, p);
     operator_params how;
@@ -470,7 +471,7 @@ TEST_CASE("untangling operator: the observer and the time limit end a run with t
 
 TEST_CASE("untangling operator: steps without measure end the run, and the start is kept")
 {
-    queue q;
+    queue q(test::shared_context());
     auto p = boxed(test::grid(6, 6));
     jitter(p, 0.3, 19);
     operator_params how;
@@ -484,7 +485,7 @@ TEST_CASE("untangling operator: steps without measure end the run, and the start
 
 TEST_CASE("untangling operator: extreme starts are answered, too")
 {
-    queue q;
+    queue q(test::shared_context());
     auto p = boxed(test::grid(3, 3));
     operator_params how;
     how.iterations = 50;
@@ -519,7 +520,7 @@ TEST_CASE("untangling operator: extreme starts are answered, too")
 
 TEST_CASE("untangling operator: bad input is refused by name")
 {
-    queue q;
+    queue q(test::shared_context());
     auto p = boxed(test::grid(2, 2));
     untangle_operator<triangle> untangle(q, p);
     const auto refuses = [&](auto change, const char* field)

@@ -112,7 +112,7 @@ files vtk_pieces()
             {"a/1.vtu", vtu_of(m)}};
 }
 
-std::string damaged(std::string text, std::mt19937& random)
+std::string damaged_piece(std::string text, std::mt19937& random)
 {
     const auto any = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
     const auto how = any(6);
@@ -177,7 +177,7 @@ void damage(const std::string& name, const files& sound, int rounds)
     {
         auto file = sound.begin();
         std::advance(file, static_cast<std::ptrdiff_t>(random() % sound.size()));
-        folder.put(file->first, damaged(file->second, random));
+        folder.put(file->first, damaged_piece(file->second, random));
         refused += !failure(all, folder, name).empty();
         folder.put(file->first, file->second);
     }
