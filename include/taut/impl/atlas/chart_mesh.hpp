@@ -28,12 +28,35 @@ struct chart_mesh
     std::vector<idx> vertex_origins; ///< the vertex of the surface, one per vertex
 
     idx charts() const noexcept { return static_cast<idx>(first_cell.size()) - 1; }
+
+    /// The first triangle of a chart, as the surface numbers it.
+    idx first_triangle(std::size_t chart) const { return cell_origins[static_cast<std::size_t>(first_cell[chart])]; }
 };
 
 } // namespace taut
 
 namespace taut::impl
 {
+
+/// Charts with their maps before the surface is cut apart: in this form they are changed.
+struct laid_surface
+{
+    std::vector<char> seam;     ///< one per side
+    std::vector<vec2> uv;       ///< one per corner
+    std::vector<double> energy; ///< one per triangle: of its chart
+};
+
+/// A chart as a mesh of its own. Vertices and triangles keep their order.
+inline mesh<triangle> chart_alone(const chart_mesh& charts, std::size_t k)
+{
+    const auto& points = charts.surface.points();
+    const auto& cells = charts.surface.cells();
+    const idx first = charts.first_vertex[k];
+    std::vector<std::array<idx, 3>> own(cells.begin() + charts.first_cell[k], cells.begin() + charts.first_cell[k + 1]);
+    for (auto& t : own)
+        for (idx& v : t) v -= first;
+    return {std::vector<vec3>(points.begin() + first, points.begin() + charts.first_vertex[k + 1]), std::move(own)};
+}
 
 /// Marks the sides where charts meet.
 /// chart: one label per triangle

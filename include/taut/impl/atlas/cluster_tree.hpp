@@ -15,7 +15,7 @@
 #include <taut/impl/atlas/arc_graph.hpp>
 #include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/chart_moments.hpp>
-#include <taut/impl/atlas/seams/seam_weights.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/core/budget.hpp>
 
 namespace taut::impl

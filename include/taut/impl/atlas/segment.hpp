@@ -134,11 +134,9 @@ using charts_to_maps = std::function<chart_maps(const chart_mesh&, std::span<con
 /// Segmentation before the surface is cut apart.
 struct uncut_segmentation
 {
-    std::vector<char> seam;     ///< one flag per side
-    std::vector<vec2> uv;       ///< one per corner
-    std::vector<double> energy; ///< one per triangle: of its chart
-    std::vector<char> crosses;  ///< one per triangle: whether its chart overlaps itself
-    segment_report report;      ///< but for what it says of seams and counts of charts
+    laid_surface laid;
+    std::vector<char> crosses; ///< one per triangle: whether its chart overlaps itself
+    segment_report report;     ///< but for what it says of seams and counts of charts
 };
 
 uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include <taut/impl/atlas/chart_moments.hpp>
+#include <taut/impl/atlas/chart_set.hpp>
 #include <taut/impl/atlas/cluster_tree.hpp>
-#include <taut/impl/atlas/laid_shape.hpp>
 #include <taut/impl/atlas/seams/seam_arcs.hpp>
 #include <taut/impl/atlas/seams/straighten.hpp>
 #include <taut/impl/atlas/segment.hpp>
@@ -477,22 +477,14 @@ uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f
 segmentation cut_apart(const mesh<triangle>& m, const facet_table& f, uncut_segmentation made,
                        const segment_params& params)
 {
-    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
-    segmentation r{{}, cut_charts(m, f, made.seam), {}, {}, made.report};
-    r.seam = std::move(made.seam);
+    chart_set set = cut(m, f, std::move(made.laid));
+    segmentation r{std::move(set.seam), std::move(set.charts), std::move(set.uv), std::move(set.energy), made.report};
     r.report.seam_length = length_of_seams(m, f, r.seam);
-    r.uv.resize(r.charts.surface.points().size());
-    for (std::size_t i = 0; i < r.charts.cell_origins.size(); ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            r.uv[u(r.charts.surface.cells()[i][j])] = made.uv[3 * u(r.charts.cell_origins[i]) + j];
-    for (idx k = 0; k < r.charts.charts(); ++k)
+    for (std::size_t k = 0; k < r.energy.size(); ++k)
     {
-        const auto first = u(r.charts.cell_origins[u(r.charts.first_cell[u(k)])]);
-        const double energy = made.energy[first];
-        r.energy.push_back(energy);
-        r.report.unmapped += !(energy < std::numeric_limits<double>::infinity());
-        r.report.above += energy > params.max_distortion;
-        r.report.crossing += made.crosses[first];
+        r.report.unmapped += !(r.energy[k] < std::numeric_limits<double>::infinity());
+        r.report.above += r.energy[k] > params.max_distortion;
+        r.report.crossing += made.crosses[static_cast<std::size_t>(r.charts.first_triangle(k))];
     }
     return r;
 }

@@ -209,16 +209,16 @@ protected:
             report_.largest_distortion = std::max(report_.largest_distortion, one.energy);
         }
         if (area > 0) report_.distortion = 4 + total_excess() / area;
-        r.energy.reserve(chart_.size());
+        r.laid.energy.reserve(chart_.size());
         r.crosses.reserve(chart_.size());
         for (const idx k : chart_)
         {
-            r.energy.push_back(charts_[u(k)].energy);
+            r.laid.energy.push_back(charts_[u(k)].energy);
             r.crosses.push_back(charts_[u(k)].shape.crosses);
         }
         report_.total_seconds = budget_.total();
-        r.seam = std::move(seam_);
-        r.uv = std::move(uv_);
+        r.laid.seam = std::move(seam_);
+        r.laid.uv = std::move(uv_);
         r.report = report_;
         return r;
     }

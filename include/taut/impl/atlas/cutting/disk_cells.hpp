@@ -48,10 +48,7 @@ public:
     /// wanted: one flag per triangle; size: triangles of a cell, at most. Cells in the order of the surface.
     std::vector<disk_cell> run(std::span<const char> wanted, idx size) const
     {
-        std::vector<idx> triangles, number(mesh_.points().size(), -1);
-        for (std::size_t c = 0; c < wanted.size(); ++c)
-            if (wanted[c]) triangles.push_back(static_cast<idx>(c));
-        const surface_part part = part_of(mesh_, triangles, seam_, number);
+        const surface_part part = part_of(mesh_, wanted, seam_);
         std::vector<piece> pieces; // of the size of cells, nearly, so that they are worked on in parallel
         for (idx k = 0; k < part.charts.charts(); ++k)
         {
@@ -97,14 +94,8 @@ private:
 
     static piece piece_of(const chart_mesh& charts, idx k, std::span<const idx> triangles)
     {
-        const idx v0 = charts.first_vertex[u(k)], c0 = charts.first_cell[u(k)], c1 = charts.first_cell[u(k) + 1];
-        std::vector<vec3> points(charts.surface.points().begin() + v0,
-                                 charts.surface.points().begin() + charts.first_vertex[u(k) + 1]);
-        std::vector<std::array<idx, 3>> cells(charts.surface.cells().begin() + c0, charts.surface.cells().begin() + c1);
-        for (auto& t : cells)
-            for (idx& v : t) v -= v0;
-        return {mesh<triangle>(std::move(points), std::move(cells)),
-                std::vector<idx>(triangles.begin() + c0, triangles.begin() + c1)};
+        return {chart_alone(charts, u(k)), std::vector<idx>(triangles.begin() + charts.first_cell[u(k)],
+                                                            triangles.begin() + charts.first_cell[u(k) + 1])};
     }
 
     /// The best of the maps that cost little.

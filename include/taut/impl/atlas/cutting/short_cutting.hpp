@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/atlas/cutting/coarse_surface.hpp>
 #include <taut/impl/atlas/cutting/lift_seams.hpp>
 #include <taut/impl/atlas/cutting/seam_search.hpp>
-#include <taut/impl/atlas/cutting/span_holes.hpp>
 #include <taut/impl/atlas/cutting/way_prices.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/core/budget.hpp>
@@ -232,13 +232,7 @@ private:
     {
         searches_[k] = std::make_unique<piece_search>();
         piece_search& p = *searches_[k];
-        const idx v0 = pieces_.first_vertex[k], c0 = pieces_.first_cell[k];
-        const auto& all = pieces_.surface;
-        std::vector<vec3> points(all.points().begin() + v0, all.points().begin() + pieces_.first_vertex[k + 1]);
-        std::vector<std::array<idx, 3>> own(all.cells().begin() + c0, all.cells().begin() + pieces_.first_cell[k + 1]);
-        for (auto& t : own)
-            for (idx& v : t) v -= v0;
-        p.surface.emplace(std::move(points), std::move(own));
+        p.surface = chart_alone(pieces_, k);
         p.facets = facets(*p.surface);
         coarse_surface coarse =
             make_coarse(*p.surface, p.facets,
