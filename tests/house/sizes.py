@@ -30,7 +30,6 @@ GATHER = {
     "impl/untangle/coarse_stage.hpp": 9,
     "impl/map/parameterize_params.hpp": 9,
     "impl/map/deform_params.hpp": 9,
-    "impl/atlas/segment.ipp": 9,
     "impl/atlas/chart_batch.hpp": 9,
 }
 
@@ -40,9 +39,6 @@ LONG = {
     "impl/atlas/atlas_summary.hpp summarize": "one field of the summary after another",
     "impl/atlas/chart_mesh.hpp cut_charts": "steps of one numbering",
     "impl/atlas/cutting/overlap_layers.hpp find_overlaps": "a sweep with its state as locals",
-    "impl/atlas/segment.ipp cut": "one loop over candidates, to be cut with the atlas as values",
-    "impl/atlas/segment.ipp try_pairs": "the same",
-    "impl/atlas/segment.ipp unite_round": "the same",
     "impl/dist_io/su2_lines.hpp su2_lines": "one section of the file after another",
     "impl/dist_io/tetgen_lines.hpp tetgen_lines": "one file of the format after another",
     "impl/edit/pasted.hpp stitch": "steps of one numbering",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <span>
@@ -24,10 +25,18 @@ struct atlas_surface
 {
     const mesh<triangle>& surface;
     const atlas_params& params;
+    std::span<const idx> origins = {}; ///< of a part of another surface: its triangles there
     facet_table facets = impl::facets(surface);
     std::vector<double> factors = {}; ///< what seams count, one per side; or empty
     std::vector<double> open = {};    ///< what is seen of the surface, one per vertex; or empty
     std::optional<mirror_symmetry> mirror = {};
+
+    /// The first triangle of a chart, as the user numbers it.
+    idx first_triangle(const chart_mesh& charts, std::size_t chart) const
+    {
+        const idx c = charts.first_triangle(chart);
+        return origins.empty() ? c : origins[static_cast<std::size_t>(c)];
+    }
 
     /// Computes what seams count.
     void weigh_seams()

@@ -46,6 +46,28 @@ struct laid_surface
     std::vector<double> energy; ///< one per triangle: of its chart
 };
 
+/// Lowest and highest corner of the box about points, of which there is one at least.
+inline std::pair<vec2, vec2> box_about(std::span<const vec2> points)
+{
+    std::pair box(points.front(), points.front());
+    for (const vec2& p : points) box = {glm::min(box.first, p), glm::max(box.second, p)};
+    return box;
+}
+
+inline double triangle_area(const mesh<triangle>& m, idx c)
+{
+    const auto x = m.rest(c);
+    return glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
+}
+
+/// Area of the triangles from `first` to `last`, that one left out.
+inline double area_of(const mesh<triangle>& m, idx first, idx last)
+{
+    double sum = 0;
+    for (idx c = first; c < last; ++c) sum += triangle_area(m, c);
+    return sum;
+}
+
 /// A chart as a mesh of its own. Vertices and triangles keep their order.
 inline mesh<triangle> chart_alone(const chart_mesh& charts, std::size_t k)
 {

@@ -165,7 +165,7 @@ inline atlas atlas_in_range(queue& q, const mesh<triangle>& m, const atlas_param
     {
         pins.emplace(m, whole.facets, params);
         of_rest = pins->of_rest(seams, together);
-        rest.emplace(atlas_surface{pins->rest(), of_rest});
+        rest.emplace(atlas_surface{pins->rest().charts.surface, of_rest, pins->rest().triangles});
     }
     atlas_surface& of = rest ? *rest : whole;
     run.report.seconds.setup = run.clock.lap();

@@ -146,7 +146,7 @@ inline chart_set symmetric_charts(atlas_run& run, atlas_surface& of)
 }
 
 /// Takes the maps of kept charts as they are, each with the area that its triangles have on the surface.
-inline void lay_as_given(atlas_run& run, chart_set& set)
+inline void lay_as_given(atlas_run& run, const atlas_surface& of, chart_set& set)
 {
     const ideal_elements<triangle> ideal(set.charts.surface);
     const auto& cells = set.charts.surface.cells();
@@ -168,7 +168,7 @@ inline void lay_as_given(atlas_run& run, chart_set& set)
     const auto bad = unfit(set);
     if (const auto first = std::find(bad.begin(), bad.end(), char(1)); first != bad.end())
         run.report.reason =
-            run.report.name_chart(set.charts.first_triangle(static_cast<std::size_t>(first - bad.begin()))) +
+            run.report.name_chart(of.first_triangle(set.charts, static_cast<std::size_t>(first - bad.begin()))) +
             " is folded, or overlaps itself, as it is given; relax it (--charts keep), or let charts be made";
 }
 
@@ -186,7 +186,7 @@ inline chart_set kept_charts(atlas_run& run, const atlas_surface& of)
     set.energy.resize(static_cast<std::size_t>(set.charts.charts()));
     if (!of.params.relax && !set.uv.empty())
     {
-        lay_as_given(run, set);
+        lay_as_given(run, of, set);
         return set;
     }
     flatten(run, set);

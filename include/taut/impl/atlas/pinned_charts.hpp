@@ -45,7 +45,7 @@ public:
     }
 
     /// The surface without them.
-    const mesh<triangle>& rest() const { return rest_.charts.surface; }
+    const surface_part& rest() const { return rest_; }
 
     /// Parameters for that surface. seams, together: storage that they refer to
     atlas_params of_rest(std::vector<char>& seams, std::vector<char>& together) const
@@ -55,7 +55,12 @@ public:
         params.charts.together = together = rest_.by_side(params.charts.together);
         params.pinned.clear();
         params.initial.clear();
-        for (const idx c : rest_.triangles) params.initial.push_back(params_.initial[u(c)]);
+        params.groups.clear();
+        for (const idx c : rest_.triangles)
+        {
+            params.initial.push_back(params_.initial[u(c)]);
+            if (!params_.groups.empty()) params.groups.push_back(params_.groups[u(c)]);
+        }
         if (!params_.keep_charts) params.initial.clear();
         const auto sides = facets(pinned_.charts.surface);
         for (std::size_t k = 0; k < tiles_.size(); ++k)
@@ -168,15 +173,14 @@ private:
             if (crossing[u(k)]) refuse(k, "overlaps itself");
         const auto overlaps = find_chart_overlaps(uv_, cells, charts.first_cell, charts.first_vertex);
         if (overlaps.pairs > 0)
-            refuse(overlaps.first[0], "overlaps that of triangle " + std::to_string(first_triangle(overlaps.first[1])) +
+            refuse(overlaps.first[0], "overlaps that of triangle " +
+                                          std::to_string(pinned_.first_triangle(u(overlaps.first[1]))) +
                                           ", which is pinned, too");
     }
 
-    idx first_triangle(idx chart) const { return pinned_.triangles[u(pinned_.charts.first_cell[u(chart)])]; }
-
     [[noreturn]] void refuse(idx chart, const std::string& why) const
     {
-        const idx c = first_triangle(chart);
+        const idx c = pinned_.first_triangle(u(chart));
         throw packing_error(packing_error::pinned, {c},
                             "the pinned chart of triangle " + std::to_string(c) + ' ' + why + "; do not pin it");
     }

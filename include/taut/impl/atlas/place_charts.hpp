@@ -99,7 +99,7 @@ inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
 {
     constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
     constexpr idx few = 16;                               // charts
-    const auto& [surface, params, facets, factors, open, mirror] = of;
+    const auto& [surface, params, origins, facets, factors, open, mirror] = of;
     const auto& packing = params.packing;
     if (params.prefer != chart_preference::seams || params.keep_charts || params.symmetric || params.stack ||
         !packing.walls.empty() || packing.on_grid() || packing.tiles > 1)
@@ -184,13 +184,8 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
 /// 1: they are.
 inline double growth(const placed_charts& placed, const chart_mesh& charts, std::size_t k, vec2 (*stored)(vec2))
 {
-    const std::span own(placed.uv.data() + charts.first_vertex[k], placed.uv.data() + charts.first_vertex[k + 1]);
-    vec2 low = own.front(), high = low;
-    for (const vec2& p : own)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
+    const auto first = placed.uv.data();
+    const auto [low, high] = box_about({first + charts.first_vertex[k], first + charts.first_vertex[k + 1]});
     const double wanted = 256 * std::sqrt(static_cast<double>(charts.first_cell[k + 1] - charts.first_cell[k])) *
                           spacing_at(high, stored);
     const double size = glm::length(high - low);

@@ -84,20 +84,15 @@ struct segment_params
 namespace taut::impl
 {
 
-/// Report of a segmentation, with its seconds.
+/// Report of a segmentation.
 struct segment_report
 {
-    double distortion = 4;         ///< distortion of the whole surface, charts without a map left out
-    double largest_distortion = 4; ///< maximum distortion of a chart that has a map
-    idx unmapped = 0;              ///< charts without a valid map
-    idx above = 0;                 ///< charts above max_distortion: of single triangles, or for want of rounds or time
-    idx crossing = 0;              ///< charts whose boundary meets itself in the plane
-    idx cut = 0, united = 0;       ///< charts cut further, pairs united
-    double seam_length = 0;        ///< in units of the surface
-    double tree_seconds = 0;       ///< pieces united to a tree
-    double straighten_seconds = 0;
-    double flatten_seconds = 0;
-    double total_seconds = 0;
+    double distortion = 4;   ///< distortion of the whole surface, charts without a map left out
+    idx unmapped = 0;        ///< charts without a valid map
+    idx above = 0;           ///< charts above max_distortion: of single triangles, or for want of rounds or time
+    idx crossing = 0;        ///< charts whose boundary meets itself in the plane
+    idx cut = 0, united = 0; ///< charts cut further, pairs united
+    double seam_length = 0;  ///< in units of the surface
 };
 
 } // namespace taut::impl

@@ -41,13 +41,7 @@ struct short_trial
 
 inline double chart_area(const chart_mesh& charts, std::size_t k)
 {
-    double area = 0;
-    for (idx c = charts.first_cell[k]; c < charts.first_cell[k + 1]; ++c)
-    {
-        const auto x = charts.surface.rest(c);
-        area += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
-    }
-    return area;
+    return area_of(charts.surface, charts.first_cell[k], charts.first_cell[k + 1]);
 }
 
 /// Area mean over all charts.

@@ -21,6 +21,12 @@ struct surface_part
     /// The side or corner of the whole surface.
     std::size_t origin(std::size_t side) const { return 3 * static_cast<std::size_t>(triangles[side / 3]) + side % 3; }
 
+    /// The first triangle of a chart, as the surface numbers it.
+    idx first_triangle(std::size_t chart) const
+    {
+        return triangles[static_cast<std::size_t>(charts.first_cell[chart])];
+    }
+
     /// Values of sides or corners of the whole surface, or none, for those of the charts.
     template <class T>
     std::vector<T> by_side(std::span<const T> whole) const
@@ -55,14 +61,13 @@ struct surface_part
 
 /// Cuts whole charts out of a surface.
 /// triangles: all those of the charts, ascending; seam: one flag per side of the surface
-/// number:    one per vertex of the surface, all -1, and so again afterwards
-inline surface_part part_of(const mesh<triangle>& m, std::span<const idx> triangles, std::span<const char> seam,
-                            std::vector<idx>& number)
+inline surface_part part_of(const mesh<triangle>& m, std::span<const idx> triangles, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     std::vector<vec3> points;
     std::vector<std::array<idx, 3>> cells;
     std::vector<char> part_seam;
+    std::vector<idx> number(m.points().size(), -1);
     cells.reserve(triangles.size());
     part_seam.reserve(3 * triangles.size());
     for (const idx c : triangles)
@@ -81,9 +86,6 @@ inline surface_part part_of(const mesh<triangle>& m, std::span<const idx> triang
         }
         cells.push_back(t);
     }
-    for (const idx c : triangles)
-        for (const idx v : m.cells()[u(c)]) number[u(v)] = -1;
-
     const mesh<triangle> surface(std::move(points), std::move(cells));
     surface_part part{cut_charts(surface, facets(surface), part_seam), {}};
     for (const idx c : part.charts.cell_origins) part.triangles.push_back(triangles[u(c)]);
@@ -93,10 +95,10 @@ inline surface_part part_of(const mesh<triangle>& m, std::span<const idx> triang
 /// The same. wanted: one flag per triangle
 inline surface_part part_of(const mesh<triangle>& m, std::span<const char> wanted, std::span<const char> seam)
 {
-    std::vector<idx> triangles, number(m.points().size(), -1);
+    std::vector<idx> triangles;
     for (std::size_t c = 0; c < wanted.size(); ++c)
         if (wanted[c]) triangles.push_back(static_cast<idx>(c));
-    return part_of(m, triangles, seam, number);
+    return part_of(m, triangles, seam);
 }
 
 } // namespace taut::impl

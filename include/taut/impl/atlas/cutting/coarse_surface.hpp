@@ -340,12 +340,7 @@ inline idx span_small_holes(coarse_surface& s)
     constexpr double small = 0.35; // perimeter by the root of the area; that of a disk is 3.5
     const mesh<triangle> m(s.points, s.cells);
     const auto first = static_cast<idx>(s.cells.size());
-    double area = 0;
-    for (idx c = 0; c < first; ++c)
-    {
-        const auto x = m.rest(c);
-        area += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
-    }
+    const double area = area_of(m, 0, first);
     for (const auto& loop : boundary_loops(m, facets(m)))
     {
         const auto point = [&](std::size_t k) { return s.points[static_cast<std::size_t>(loop[k % loop.size()])]; };

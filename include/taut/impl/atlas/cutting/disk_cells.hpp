@@ -154,7 +154,7 @@ private:
         for (const piece& one : smaller)
         {
             maps.push_back(map_of(one));
-            const double own = area_of(one.surface);
+            const double own = area_of(one.surface, 0, one.surface.cell_count());
             excess += own * (std::min(maps.back().energy, made.energy) - 4);
             area += own;
         }
@@ -172,17 +172,6 @@ private:
         cells.push_back({p.triangles, {}, made.energy});
         for (const auto& t : p.surface.cells())
             cells.back().uv.push_back({made.uv[u(t[0])], made.uv[u(t[1])], made.uv[u(t[2])]});
-    }
-
-    static double area_of(const mesh<triangle>& m)
-    {
-        double sum = 0;
-        for (idx c = 0; c < m.cell_count(); ++c)
-        {
-            const auto x = m.rest(c);
-            sum += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
-        }
-        return sum;
     }
 
     /// So many cells of a piece, each about the triangle that is farthest from those before.

@@ -24,9 +24,9 @@ inline std::vector<double> parted_energies(const mesh<triangle>& m, std::span<co
                                            std::span<const char> seam, const std::vector<vec2>& uv)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
-    std::vector<idx> number(m.points().size(), -1), place(m.cells().size(), -1);
+    std::vector<idx> place(m.cells().size(), -1);
     for (std::size_t i = 0; i < some.size(); ++i) place[u(some[i])] = static_cast<idx>(i);
-    const surface_part part = part_of(m, some, seam, number);
+    const surface_part part = part_of(m, some, seam);
     const auto own = part.by_vertex(uv);
     const auto crossing = crossing_charts(part.charts, own);
     const ideal_elements<triangle> ideal(part.charts.surface);

@@ -93,7 +93,7 @@ inline void take_apart(atlas_run& run, const atlas_surface& of, chart_set& set, 
     if (of.params.keep_charts)
     {
         const auto first = std::find(bad.begin(), bad.end(), char(1)) - bad.begin();
-        report.reason = report.name_chart(set.charts.first_triangle(static_cast<std::size_t>(first))) +
+        report.reason = report.name_chart(of.first_triangle(set.charts, static_cast<std::size_t>(first))) +
                         " has no map, or none without overlaps, and cannot be kept; let charts be made";
         return;
     }

@@ -49,12 +49,7 @@ inline std::vector<std::array<idx, 2>> overlapping_pairs(const rest_surface& res
 {
     const auto u = rest_surface::u;
     const idx cells = rest.first_span;
-    vec2 low = uv[0], high = uv[0];
-    for (const vec2& p : uv)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
+    const auto [low, high] = box_about(uv);
     const double size = std::max({1.5 * std::sqrt(rest.total / std::max<idx>(1, cells)),
                                   std::max(high.x - low.x, high.y - low.y) / 2000, 1e-300});
     struct entry
