@@ -36,9 +36,6 @@ GATHER = {
 # Functions above 60 lines, each with its reason; none above 110.
 LONGEST = 110
 LONG = {
-    "impl/atlas/atlas_summary.hpp summarize": "one field of the summary after another",
-    "impl/atlas/chart_mesh.hpp cut_charts": "steps of one numbering",
-    "impl/atlas/cutting/overlap_layers.hpp find_overlaps": "a sweep with its state as locals",
     "impl/dist_io/su2_lines.hpp su2_lines": "one section of the file after another",
     "impl/dist_io/tetgen_lines.hpp tetgen_lines": "one file of the format after another",
     "impl/edit/pasted.hpp stitch": "steps of one numbering",

@@ -13,6 +13,7 @@
 #include <taut/impl/atlas/atlas_params.hpp>
 #include <taut/impl/atlas/atlas_report.hpp>
 #include <taut/impl/atlas/chart_set.hpp>
+#include <taut/impl/atlas/cutting/way_prices.hpp>
 #include <taut/impl/atlas/seams/openness.hpp>
 #include <taut/impl/atlas/symmetry.hpp>
 #include <taut/impl/core/budget.hpp>
@@ -38,7 +39,13 @@ struct atlas_surface
         return origins.empty() ? c : origins[static_cast<std::size_t>(c)];
     }
 
-    /// Computes what seams count.
+    /// What a seam along each side counts.
+    std::vector<double> prices() const { return side_prices(surface, facets, params.charts.together, factors); }
+
+    /// Returns whether a side is a seam in any case.
+    bool is_given(std::size_t side) const { return !params.charts.seams.empty() && params.charts.seams[side] != 0; }
+
+    /// Computes `factors` and `open`.
     void weigh_seams()
     {
         const seam_wishes& wishes = params.wishes;
@@ -103,6 +110,12 @@ struct atlas_run
         return flat;
     }
 };
+
+/// Cuts a surface along its seams.
+inline chart_set cut(const atlas_surface& of, laid_surface laid)
+{
+    return cut(of.surface, of.facets, std::move(laid));
+}
 
 /// Maps all charts of a set, from its maps if it has any.
 inline void flatten(atlas_run& run, chart_set& set, atlas_run::precise how = atlas_run::precise::usual)

@@ -189,6 +189,12 @@ struct vertex_fans
 {
     std::vector<idx> of_corner;    ///< one per corner
     std::vector<idx> first_corner; ///< one per fan, ascending
+
+    idx vertex(const mesh<triangle>& m, std::size_t fan) const
+    {
+        const auto corner = static_cast<std::size_t>(first_corner[fan]);
+        return m.cells()[corner / 3][corner % 3];
+    }
 };
 
 inline vertex_fans fans_between(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
@@ -244,27 +250,20 @@ inline chart_mesh cut_charts(const mesh<triangle>& m, const impl::facet_table& f
                     fans = impl::fans_between(m, f, seam);
         },
         0, 1);
-    const auto by_chart = [&](std::size_t n, auto&& chart_of)
+    const auto sorted = [](std::size_t n, idx rows, auto&& row_of)
     {
         std::vector<idx> order(n);
-        auto start = impl::counting_sort(n, u(charts), chart_of,
+        auto start = impl::counting_sort(n, static_cast<std::size_t>(rows), row_of,
                                          [&](std::size_t i, std::size_t at) { order[at] = static_cast<idx>(i); });
         return std::pair(std::move(start), std::move(order));
     };
-    auto [first_cell, cell_origins] = by_chart(cells, [&](std::size_t c) { return chart[c]; });
+    auto [first_cell, cell_origins] = sorted(cells, charts, [&](std::size_t c) { return chart[c]; });
 
     // Fans in the order of their vertices in the surface, then by chart.
-    const auto vertex_of = [&](idx fan)
-    {
-        const idx corner = fans.first_corner[u(fan)];
-        return m.cells()[u(corner / 3)][u(corner % 3)];
-    };
-    std::vector<idx> by_vertex(fans.first_corner.size());
-    impl::counting_sort(
-        by_vertex.size(), u(m.vertex_count()), [&](std::size_t i) { return vertex_of(static_cast<idx>(i)); },
-        [&](std::size_t i, std::size_t at) { by_vertex[at] = static_cast<idx>(i); });
-    auto [first_vertex, order] =
-        by_chart(by_vertex.size(), [&](std::size_t i) { return chart[u(fans.first_corner[u(by_vertex[i])] / 3)]; });
+    const auto by_vertex =
+        sorted(fans.first_corner.size(), m.vertex_count(), [&](std::size_t i) { return fans.vertex(m, i); }).second;
+    auto [first_vertex, order] = sorted(
+        by_vertex.size(), charts, [&](std::size_t i) { return chart[u(fans.first_corner[u(by_vertex[i])] / 3)]; });
 
     std::vector<vec3> points(order.size());
     std::vector<idx> vertex_origins(order.size()), place(order.size()); // of each fan
@@ -276,7 +275,7 @@ inline chart_mesh cut_charts(const mesh<triangle>& m, const impl::facet_table& f
                            {
                                const idx fan = by_vertex[u(order[i])];
                                place[u(fan)] = static_cast<idx>(i);
-                               vertex_origins[i] = vertex_of(fan);
+                               vertex_origins[i] = fans.vertex(m, u(fan));
                                points[i] = m.points()[u(vertex_origins[i])];
                            }
                        });

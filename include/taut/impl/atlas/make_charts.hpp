@@ -33,7 +33,7 @@ inline chart_set segmented_charts(atlas_run& run, const atlas_surface& of)
     };
     auto made = segment_surface(of.surface, of.facets, maps_by(first_maps), params);
     if (!run.goes_on()) return cut_unfinished(run, of, std::move(made.laid), made.crosses);
-    chart_set set = cut(of.surface, of.facets, std::move(made.laid));
+    chart_set set = cut(of, std::move(made.laid));
     mend(run, of, set, unfit(set));
     return set;
 }
@@ -64,12 +64,11 @@ inline void copy_components(const atlas_surface& of, chart_set& set)
     {
         const idx first = model[u(copies.sides()[u(s)])];
         if (first == s) continue;
-        const auto& given = of.params.charts.seams;
-        flat.seam[own(s)] = set.seam[own(first)] != 0 || (!given.empty() && given[own(s)] != 0);
+        flat.seam[own(s)] = set.seam[own(first)] != 0 || of.is_given(own(s));
         flat.uv[own(s)] = flat.uv[own(first)]; // a side and a corner have one number
         flat.energy[own(s) / 3] = flat.energy[own(first) / 3];
     }
-    set = cut(of.surface, of.facets, std::move(flat));
+    set = cut(of, std::move(flat));
 }
 
 /// Makes polygons that are divided by seams charts of their own.
@@ -104,7 +103,7 @@ inline void join_polygons(atlas_run& run, const atlas_surface& of, chart_set& se
         }
         part.write(k, energy, maps.uv, flat);
     }
-    set = cut(of.surface, of.facets, std::move(flat));
+    set = cut(of, std::move(flat));
     run.report.notes.push_back("polygons that were in several charts became charts by themselves");
     mend(run, of, set, unfit(set));
 }
@@ -136,7 +135,7 @@ inline chart_set symmetric_charts(atlas_run& run, atlas_surface& of)
             whole.uv[corner] = mirrored ? vec2(-made.uv[from].x, made.uv[from].y) : made.uv[from];
             whole.energy[corner / 3] = made.energy[from / 3];
         });
-    chart_set set = cut(of.surface, of.facets, std::move(whole));
+    chart_set set = cut(of, std::move(whole));
     // Where polygons that are mirror images are cut along other diagonals, triangles may be flipped.
     std::vector<char> turned(set.energy.size());
     for (std::size_t k = 0; k < turned.size(); ++k) turned[k] = turned_triangle(set.charts, k, set.uv) >= 0;

@@ -99,25 +99,25 @@ inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
 {
     constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
     constexpr idx few = 16;                               // charts
-    const auto& [surface, params, origins, facets, factors, open, mirror] = of;
+    const auto& params = of.params;
     const auto& packing = params.packing;
     if (params.prefer != chart_preference::seams || params.keep_charts || params.symmetric || params.stack ||
         !packing.walls.empty() || packing.on_grid() || packing.tiles > 1)
         return;
     if (!run.report.reason.empty() || !run.report.complete || set.charts.charts() > few) return;
     double area = 0;
-    for (const double a : ideal_elements<triangle>(surface).measure) area += a;
-    const double longest = least_length * std::sqrt(area) + by_seams * length_of_seams(surface, facets, set.seam);
+    for (const double a : ideal_elements<triangle>(of.surface).measure) area += a;
+    const double longest = least_length * std::sqrt(area) + by_seams * length_of_seams(of.surface, of.facets, set.seam);
     auto flat = laid(set);
     auto quietly = packing;
     const run_limits left = run.limits("pack");
     quietly.limits = {left.time_limit, {}};
-    const auto prices = side_prices(surface, facets, params.charts.together, factors);
-    flat.seam = filled_square(surface, facets, flat.uv, prices, quietly)
+    const auto prices = of.prices();
+    flat.seam = filled_square(of.surface, of.facets, flat.uv, prices, quietly)
                     .run(set.seam, longest, [&left] { return left.observer({}); });
     if (flat.seam != set.seam)
     {
-        set = cut(surface, facets, std::move(flat));
+        set = cut(of, std::move(flat));
         measure(set);
     }
     run.report.seconds.pack += run.clock.lap();

@@ -130,9 +130,9 @@ inline void cut_by_estimate(surface_charts& all)
         if (!(found > 1.25 * ratio)) break;
         ratio = found;
     }
-    all.seam = tree.seams(all.facets, tree.labels(chosen));
+    all.laid.seam = tree.seams(all.facets, tree.labels(chosen));
     if (!all.clock.proceed()) return;
-    straighten(all.surface, all.facets, all.seam, all.params.seams, all.params.together, all.clock,
+    straighten(all.surface, all.facets, all.laid.seam, all.params.seams, all.params.together, all.clock,
                seam_weights(all.surface, all.facets, all.params.weights));
 }
 
@@ -194,7 +194,7 @@ inline void cut(surface_charts& all, std::span<const idx> charts)
     const auto u = surface_charts::u;
     all.report.cut += static_cast<idx>(charts.size());
     const auto triangles = all.triangles_of(charts);
-    const surface_part part = part_of(all.surface, triangles, all.seam);
+    const surface_part part = part_of(all.surface, triangles, all.laid.seam);
     const auto f = facets(part.charts.surface);
     const auto keep = part.by_side(all.params.seams), together = part.by_side(all.params.together);
     const auto weights = part.by_side(all.params.weights);
@@ -213,7 +213,7 @@ inline void cut(surface_charts& all, std::span<const idx> charts)
     straighten(part.charts.surface, f, seam, keep, together, all.clock, seam_weights(part.charts.surface, f, weights));
     if (all.clock.over()) return;
     for (std::size_t s = 0; s < seam.size(); ++s)
-        if (f.twin[s] >= 0) all.seam[part.origin(s)] = seam[s];
+        if (f.twin[s] >= 0) all.laid.seam[part.origin(s)] = seam[s];
     all.renew(triangles);
 }
 

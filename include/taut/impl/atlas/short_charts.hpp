@@ -144,7 +144,7 @@ inline void sew_up(const atlas_surface& of, chart_set& set, const std::vector<ch
             of.surface, {flat.seam, flat.uv, some, whole}, of.params.charts.seams, bound,
             [&limits] { return limits.proceed(); }, of.factors))
         return;
-    set = cut(of.surface, of.facets, std::move(flat));
+    set = cut(of, std::move(flat));
     measure(set);
 }
 

@@ -41,8 +41,8 @@ struct surface_charts
           map_charts(flatten),
           params(how),
           clock(how.limits.time_limit, how.limits.observer),
-          seam(f.twin.size(), 0),
-          uv(f.twin.size(), vec2(0.0)),
+          laid{std::vector<char>(f.twin.size(), 0), std::vector<vec2>(f.twin.size(), vec2(0.0)),
+               std::vector<double>(m.cells().size(), infinite)},
           chart(m.cells().size(), 0),
           areas(m.cells().size())
     {
@@ -94,7 +94,7 @@ struct surface_charts
     {
         for (const idx c : triangles)
             if (!records.empty()) records[u(chart[u(c)])].triangles.clear();
-        const surface_part part = part_of(surface, triangles, seam);
+        const surface_part part = part_of(surface, triangles, laid.seam);
         const auto [maps, shapes] = flatten(part);
         for (idx k = 0; k < part.charts.charts(); ++k) take(part, maps, shapes[u(k)], k);
     }
@@ -119,8 +119,8 @@ struct surface_charts
             chart[u(c)] = static_cast<idx>(records.size());
             r.area += areas[u(c)];
             r.triangles.push_back(c);
-            for (std::size_t j = 0; j < 3; ++j) uv[3 * u(c) + j] = maps.uv[u(part.charts.surface.cells()[i][j])];
         }
+        part.write(u(k), r.energy, maps.uv, laid);
         records.push_back(std::move(r));
     }
 
@@ -142,8 +142,8 @@ struct surface_charts
             if (!records[u(k)].settled && !records[u(k)].triangles.empty()) some.push_back(k);
         if (some.empty() || !clock.proceed()) return;
         const auto triangles = triangles_of(some);
-        const surface_part part = part_of(surface, triangles, seam);
-        const auto start = part.by_vertex(uv);
+        const surface_part part = part_of(surface, triangles, laid.seam);
+        const auto start = part.by_vertex(laid.uv);
         const auto [maps, shapes] = flatten(part, start);
         for (idx k = 0; k < part.charts.charts(); ++k)
         {
@@ -182,15 +182,9 @@ struct surface_charts
             if (!one.triangles.empty() && one.energy < infinite) mapped += one.area;
         }
         if (mapped > 0) report.distortion = 4 + total_excess() / mapped;
-        r.laid.energy.reserve(chart.size());
         r.crosses.reserve(chart.size());
-        for (const idx k : chart)
-        {
-            r.laid.energy.push_back(records[u(k)].energy);
-            r.crosses.push_back(records[u(k)].shape.crosses);
-        }
-        r.laid.seam = std::move(seam);
-        r.laid.uv = std::move(uv);
+        for (const idx k : chart) r.crosses.push_back(records[u(k)].shape.crosses);
+        r.laid = std::move(laid);
         r.report = report;
         return r;
     }
@@ -201,8 +195,7 @@ struct surface_charts
     const segment_params& params;
     budget clock;
     segment_report report;
-    std::vector<char> seam;    // one per side
-    std::vector<vec2> uv;      // one per corner
+    laid_surface laid;
     std::vector<idx> chart;    // one per triangle: its chart_record
     csr sides;                 // that start at each vertex, once they are asked for
     std::vector<double> areas; ///< of triangles

@@ -45,7 +45,7 @@ inline std::vector<union_candidate> union_candidates(const surface_charts& all, 
         const auto x = all.surface.rest(c);
         moments[u(all.chart[u(c)])] += chart_moments::of_triangle(glm::cross(x[1] - x[0], x[2] - x[0]));
         for (std::size_t s = 3 * u(c); s < 3 * u(c) + 3; ++s)
-            if (all.facets.twin[s] < 0 || all.seam[s]) moments[u(all.chart[u(c)])].perimeter += all.length(s);
+            if (all.facets.twin[s] < 0 || all.laid.seam[s]) moments[u(all.chart[u(c)])].perimeter += all.length(s);
     }
     std::vector<union_candidate> pairs;
     for (idx a = 0; a < arcs.rows(); ++a)
@@ -113,7 +113,7 @@ struct united_pairs
 inline std::optional<united_pairs> united(surface_charts& all, const csr& arcs, std::span<const union_candidate> tried)
 {
     const auto u = surface_charts::u;
-    auto seam = all.seam;
+    auto seam = all.laid.seam;
     std::vector<idx> involved;
     std::vector<std::size_t> pair_of(all.records.size(), 0);
     const auto involve = [&](const std::array<idx, 2>& charts)
@@ -151,7 +151,7 @@ inline void accept(surface_charts& all, std::span<const idx> arc, const std::arr
 {
     const auto u = surface_charts::u;
     ++all.report.united;
-    for (const idx s : arc) all.seam[u(s)] = all.seam[u(all.facets.twin[u(s)])] = 0;
+    for (const idx s : arc) all.laid.seam[u(s)] = all.laid.seam[u(all.facets.twin[u(s)])] = 0;
     for (const idx old : charts) all.records[u(old)].triangles.clear();
     all.take(part, maps, shape, k);
 }
@@ -214,7 +214,7 @@ inline bool unite_round(surface_charts& all, unions what)
     const auto crossing = [](const chart_record& r) { return !r.triangles.empty() && r.shape.crosses; };
     if (slits && std::none_of(all.records.begin(), all.records.end(), crossing)) return false;
     if (all.sides.items.empty()) all.sides = starting_sides(all.surface);
-    const csr arcs = seam_arcs(all.surface, all.facets, all.sides, all.seam);
+    const csr arcs = seam_arcs(all.surface, all.facets, all.sides, all.laid.seam);
     const auto pairs = union_candidates(all, arcs, room, what);
     std::vector<char> taken(all.records.size(), 0);
     std::vector<union_candidate> tried;

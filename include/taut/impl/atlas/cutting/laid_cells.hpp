@@ -12,33 +12,24 @@
 #include <taut/impl/atlas/chart_set.hpp>
 #include <taut/impl/atlas/cutting/disk_cells.hpp>
 #include <taut/impl/atlas/cutting/part_charts.hpp>
-#include <taut/impl/atlas/cutting/way_prices.hpp>
 #include <taut/impl/atlas/seen_patches.hpp>
 
 namespace taut::impl
 {
 
-/// Energy of the chart of each of these triangles, ascending ones of whole charts; infinite where it overlaps itself.
-/// seam, uv: one per side and corner of the surface
-inline std::vector<double> parted_energies(const mesh<triangle>& m, std::span<const idx> some,
-                                           std::span<const char> seam, const std::vector<vec2>& uv)
+/// Computes the energies of the charts of these triangles, ascending ones of whole charts; infinite where one overlaps
+/// itself.
+inline void measure(const mesh<triangle>& m, std::span<const idx> some, laid_surface& laid)
 {
-    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
-    std::vector<idx> place(m.cells().size(), -1);
-    for (std::size_t i = 0; i < some.size(); ++i) place[u(some[i])] = static_cast<idx>(i);
-    const surface_part part = part_of(m, some, seam);
-    const auto own = part.by_vertex(uv);
-    const auto crossing = crossing_charts(part.charts, own);
+    const surface_part part = part_of(m, some, laid.seam);
+    const auto uv = part.by_vertex(laid.uv);
+    const auto crossing = crossing_charts(part.charts, uv);
     const ideal_elements<triangle> ideal(part.charts.surface);
-    std::vector<double> energies(some.size());
     for (std::size_t k = 0; k < crossing.size(); ++k)
-    {
-        const double energy =
-            crossing[k] ? std::numeric_limits<double>::infinity() : area_and_energy(part.charts, k, own, ideal).second;
-        for (auto i = u(part.charts.first_cell[k]); i < u(part.charts.first_cell[k + 1]); ++i)
-            energies[u(place[u(part.triangles[i])])] = energy;
-    }
-    return energies;
+        part.write(k,
+                   crossing[k] ? std::numeric_limits<double>::infinity()
+                               : area_and_energy(part.charts, k, uv, ideal).second,
+                   uv, laid);
 }
 
 /// Replaces the maps of some triangles, with seams around them. label(triangle): its new chart, -1 if unchanged;
@@ -46,7 +37,6 @@ inline std::vector<double> parted_energies(const mesh<triangle>& m, std::span<co
 template <class Label, class Energy, class Map>
 void lay_anew(const atlas_surface& of, laid_surface& laid, Label&& label, Energy&& energy_of, Map&& uv_of)
 {
-    const auto& given = of.params.charts.seams;
     const auto& twin = of.facets.twin;
     parallel_for(laid.energy.size(),
                  [&](std::size_t begin, std::size_t end)
@@ -60,8 +50,7 @@ void lay_anew(const atlas_surface& of, laid_surface& laid, Label&& label, Energy
                              if (own >= 0) laid.uv[s] = uv_of(c, s % 3);
                              if (twin[s] < 0) continue;
                              const idx other = label(static_cast<std::size_t>(twin[s]) / 3);
-                             if (own >= 0 || other >= 0)
-                                 laid.seam[s] = (!given.empty() && given[s] != 0) || own != other;
+                             if (own >= 0 || other >= 0) laid.seam[s] = of.is_given(s) || own != other;
                          }
                      }
                  });
@@ -98,18 +87,16 @@ inline void relax_cells(const atlas_run& run, const atlas_surface& of, laid_surf
     auto parted = laid;
     for (std::size_t k = 0; k < maps.charts.size(); ++k)
         if (crossing[k] && maps.charts[k].valid) own.write(k, maps.charts[k].energy, maps.uv, parted);
-    part_laid(of.surface, {parted.seam, parted.uv, some},
-              side_prices(of.surface, of.facets, of.params.charts.together, of.factors));
-    const auto then = parted_energies(of.surface, some, parted.seam, parted.uv);
+    part_laid(of.surface, {parted.seam, parted.uv, some}, of.prices());
+    measure(of.surface, some, parted);
     std::vector<char> refused(maps.charts.size(), 0);
-    for (std::size_t i = 0; i < some.size(); ++i)
-        if (!(then[i] < std::numeric_limits<double>::infinity())) refused[u(chart[u(some[i])])] = 1;
-    for (std::size_t i = 0; i < some.size(); ++i)
+    for (const idx c : some)
+        if (!(parted.energy[u(c)] < std::numeric_limits<double>::infinity())) refused[u(chart[u(c)])] = 1;
+    for (const idx c : some)
     {
-        const auto c = u(some[i]);
-        if (refused[u(chart[c])]) continue;
-        laid.energy[c] = then[i];
-        for (std::size_t s = 3 * c; s < 3 * c + 3; ++s)
+        if (refused[u(chart[u(c)])]) continue;
+        laid.energy[u(c)] = parted.energy[u(c)];
+        for (std::size_t s = 3 * u(c); s < 3 * u(c) + 3; ++s)
         {
             laid.uv[s] = parted.uv[s];
             laid.seam[s] = parted.seam[s];

@@ -75,10 +75,8 @@ inline std::vector<char> part_overlaps(const atlas_surface& of, chart_set& set, 
     if (some.empty()) return bad;
     std::sort(some.begin(), some.end());
     auto flat = laid(set);
-    if (!part_laid(of.surface, {flat.seam, flat.uv, some},
-                   side_prices(of.surface, of.facets, of.params.charts.together, of.factors)))
-        return bad;
-    set = cut(of.surface, of.facets, std::move(flat));
+    if (!part_laid(of.surface, {flat.seam, flat.uv, some}, of.prices())) return bad;
+    set = cut(of, std::move(flat));
     measure(set);
     return unfit(set);
 }
@@ -103,7 +101,7 @@ inline void take_apart(atlas_run& run, const atlas_surface& of, chart_set& set, 
         largest > 0
             ? take_patches(of, flat, lay_as_seen(of.surface, of.facets, wanted, of.params.charts.seams, largest))
             : lay_at_once(run, of, flat, wanted);
-    set = cut(of.surface, of.facets, std::move(flat));
+    set = cut(of, std::move(flat));
     const auto count = std::count(bad.begin(), bad.end(), char(1));
     report.notes.push_back(std::to_string(count) + (count == 1 ? " chart" : " charts") + " without a map became " +
                            std::to_string(made) + (largest > 0 ? ", laid as they are seen" : ", mapped at once"));
@@ -129,7 +127,7 @@ inline chart_set cut_unfinished(atlas_run& run, const atlas_surface& of, laid_su
     if (std::count(wanted.begin(), wanted.end(), char(1)) > 0)
         run.report.notes.push_back("parts without a map by then became " +
                                    std::to_string(lay_at_once(run, of, laid, wanted)) + " charts, mapped at once");
-    return cut(of.surface, of.facets, std::move(laid));
+    return cut(of, std::move(laid));
 }
 
 } // namespace taut::impl
