@@ -15,6 +15,7 @@
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/packing/certificate.hpp>
+#include <taut/impl/packing/pack.hpp>
 
 namespace taut::impl
 {

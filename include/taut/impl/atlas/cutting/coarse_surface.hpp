@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/mesh/boundary.hpp>
 #include <taut/impl/mesh/facets.hpp>

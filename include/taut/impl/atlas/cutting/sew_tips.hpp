@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <taut/impl/atlas/cutting/flat_surface.hpp>
+#include <taut/impl/atlas/cutting/laid_part.hpp>
 #include <taut/impl/atlas/cutting/zip.hpp>
 
 namespace taut::impl
