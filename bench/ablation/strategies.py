@@ -145,13 +145,12 @@ STRATEGIES = [
              ("map/session/repair.hpp", "if (!part || !clock.in_time()) break;", "if (!part || !clock.in_time() || {off}) break;")),
     # Charts
     Strategy("charts kept apart", "charts that overlap themselves mapped anew with their borders apart",
-             ("atlas/flat_charts.hpp", "        keep_apart(bad);\n        if (std::count",
-              "        if (!{off}) keep_apart(bad);\n        if (std::count")),
+             ("atlas/cutting/mend_charts.hpp", "    keep_apart(run, set, bad);\n    if (!of",
+              "    if (!{off}) keep_apart(run, set, bad);\n    if (!of")),
     Strategy("planar-projection charts", "patches laid as they are seen where a chart has no map",
-             ("atlas/flat_charts.hpp", "        if (!report_.reason.empty()) return;\n        const auto first_bad",
-              "        if (!report_.reason.empty()) return;\n        if ({off})\n        {\n"
-              "            report_.reason = \"a chart has no map\";\n            return;\n        }\n"
-              "        const auto first_bad")),
+             ("atlas/cutting/mend_charts.hpp", "    if (!report.reason.empty()) return;\n    if (of.params",
+              "    if (!report.reason.empty()) return;\n    if ({off})\n    {\n"
+              "        report.reason = \"a chart has no map\";\n        return;\n    }\n    if (of.params")),
 ]
 
 SWITCH = """// SPDX-License-Identifier: MIT

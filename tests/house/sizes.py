@@ -21,8 +21,6 @@ ROOMS = {
 # Headers above 8 includes of the library. Public headers gather what belongs together and have no bound.
 GATHER = {
     "impl/map/session/initial_guess.hpp": 13,
-    "impl/atlas/flat_charts.hpp": 14,
-    "impl/atlas/make_atlas.ipp": 15,
     "impl/io/volume/read_volume.ipp": 11,
     "impl/objective/map_objective.hpp": 9,
     "impl/objective/running_map.hpp": 9,
@@ -32,20 +30,12 @@ GATHER = {
     "impl/untangle/coarse_stage.hpp": 9,
     "impl/map/parameterize_params.hpp": 9,
     "impl/map/deform_params.hpp": 9,
-    "impl/atlas/segment.ipp": 9,
     "impl/atlas/chart_batch.hpp": 9,
 }
 
 # Functions above 60 lines, each with its reason; none above 110.
 LONGEST = 110
 LONG = {
-    "impl/atlas/atlas_summary.hpp summarize": "one field of the summary after another",
-    "impl/atlas/chart_mesh.hpp cut_charts": "steps of one numbering",
-    "impl/atlas/cutting/overlap_layers.hpp find_overlaps": "a sweep with its state as locals",
-    "impl/atlas/segment.ipp cut": "one loop over candidates, to be cut with the atlas as values",
-    "impl/atlas/segment.ipp try_pairs": "the same",
-    "impl/atlas/segment.ipp unite_round": "the same",
-    "impl/atlas/short_charts.hpp flatten_within_bound": "a search with six thresholds, to be cut with the atlas as values",
     "impl/dist_io/su2_lines.hpp su2_lines": "one section of the file after another",
     "impl/dist_io/tetgen_lines.hpp tetgen_lines": "one file of the format after another",
     "impl/edit/pasted.hpp stitch": "steps of one numbering",

@@ -17,11 +17,11 @@
 #include <support/at.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
+#include <taut/impl/atlas/cutting/coarse_surface.hpp>
 #include <taut/impl/atlas/cutting/lift_seams.hpp>
 #include <taut/impl/atlas/cutting/part_charts.hpp>
 #include <taut/impl/atlas/cutting/seam_search.hpp>
 #include <taut/impl/atlas/cutting/short_cutting.hpp>
-#include <taut/impl/atlas/cutting/span_holes.hpp>
 #include <taut/impl/atlas/filled_square.hpp>
 #include <taut/impl/atlas/filling_cuts.hpp>
 

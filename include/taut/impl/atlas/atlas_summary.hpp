@@ -68,18 +68,20 @@ inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<
     const auto& cells = charts.surface.cells();
     const ideal_elements<triangle> ideal(charts.surface);
     std::vector<double> values(cells.size()); // one per triangle
-    const auto for_each_cell = [&](const auto& value)
+    const auto sum_over_cells = [&](const auto& value)
     {
         parallel_for(values.size(),
                      [&](std::size_t begin, std::size_t end)
                      {
                          for (std::size_t c = begin; c < end; ++c) values[c] = value(c);
                      });
+        double sum = 0;
+        for (const double x : values) sum += x;
+        return sum;
     };
-    for_each_cell([&](std::size_t c)
-                  { return orient(uv[u(cells[c][0])], uv[u(cells[c][1])], uv[u(cells[c][2])]).det / 2; });
-    double in_space = 0, in_plane = 0;
-    for (const double area : values) in_plane += area;
+    const double in_plane = sum_over_cells(
+        [&](std::size_t c) { return orient(uv[u(cells[c][0])], uv[u(cells[c][1])], uv[u(cells[c][2])]).det / 2; });
+    double in_space = 0;
     for (idx k = 0; k < charts.charts(); ++k)
     {
         chart_summary chart{.triangles = charts.first_cell[u(k) + 1] - charts.first_cell[u(k)],
@@ -90,7 +92,8 @@ inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<
         report.charts.push_back(chart);
     }
     const double scale = std::sqrt(in_space / in_plane);
-    for_each_cell(
+    report.area = in_space;
+    const double distortion = sum_over_cells(
         [&](std::size_t c)
         {
             const mat2 S = scale * shape_matrix<2>(cells[c], uv, ideal.inverse[c]);
@@ -98,29 +101,20 @@ inline void summarize(atlas_report& report, const chart_mesh& charts, std::span<
             return ideal.measure[c] * (det > 0 ? taut::energy::isometric{}(element<double, 2>{S, det, ideal.measure[c]})
                                                : std::numeric_limits<double>::infinity());
         });
-    double sum = 0;
-    for (const double x : values) sum += x;
-    report.distortion = sum / in_space;
-    report.area = in_space;
+    report.distortion = distortion / in_space;
     // From the plane to the surface the singular values are 1 / s1 and 1 / s2: their squares sum to |S|^2 / det^2.
     std::vector<double> largest(cells.size());
-    for_each_cell(
+    const double stretch = sum_over_cells(
         [&](std::size_t c)
         {
             const mat2 S = scale * shape_matrix<2>(cells[c], uv, ideal.inverse[c]);
             const double det = glm::determinant(S), square = glm::dot(S[0], S[0]) + glm::dot(S[1], S[1]);
-            if (!(det > 0))
-            {
-                largest[c] = std::numeric_limits<double>::infinity();
-                return largest[c];
-            }
+            if (!(det > 0)) return largest[c] = std::numeric_limits<double>::infinity();
             const double root = std::sqrt(std::max(0.0, square * square - 4 * det * det));
             largest[c] = std::sqrt((square + root) / 2) / det;
             return ideal.measure[c] * square / (det * det) / 2;
         });
-    sum = 0;
-    for (const double x : values) sum += x;
-    report.stretch_l2 = std::sqrt(sum / in_space);
+    report.stretch_l2 = std::sqrt(stretch / in_space);
     report.stretch_linf = largest.empty() ? 1 : *std::max_element(largest.begin(), largest.end());
     take_densities(report, charts, uv, ideal, scale);
     report.utilization = layout.utilization;

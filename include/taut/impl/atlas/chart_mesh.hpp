@@ -28,12 +28,57 @@ struct chart_mesh
     std::vector<idx> vertex_origins; ///< the vertex of the surface, one per vertex
 
     idx charts() const noexcept { return static_cast<idx>(first_cell.size()) - 1; }
+
+    /// The first triangle of a chart, as the surface numbers it.
+    idx first_triangle(std::size_t chart) const { return cell_origins[static_cast<std::size_t>(first_cell[chart])]; }
 };
 
 } // namespace taut
 
 namespace taut::impl
 {
+
+/// Charts with their maps before the surface is cut apart: in this form they are changed.
+struct laid_surface
+{
+    std::vector<char> seam;     ///< one per side
+    std::vector<vec2> uv;       ///< one per corner
+    std::vector<double> energy; ///< one per triangle: of its chart
+};
+
+/// Lowest and highest corner of the box about points, of which there is one at least.
+inline std::pair<vec2, vec2> box_about(std::span<const vec2> points)
+{
+    std::pair box(points.front(), points.front());
+    for (const vec2& p : points) box = {glm::min(box.first, p), glm::max(box.second, p)};
+    return box;
+}
+
+inline double triangle_area(const mesh<triangle>& m, idx c)
+{
+    const auto x = m.rest(c);
+    return glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
+}
+
+/// Area of the triangles from `first` to `last`, that one left out.
+inline double area_of(const mesh<triangle>& m, idx first, idx last)
+{
+    double sum = 0;
+    for (idx c = first; c < last; ++c) sum += triangle_area(m, c);
+    return sum;
+}
+
+/// A chart as a mesh of its own. Vertices and triangles keep their order.
+inline mesh<triangle> chart_alone(const chart_mesh& charts, std::size_t k)
+{
+    const auto& points = charts.surface.points();
+    const auto& cells = charts.surface.cells();
+    const idx first = charts.first_vertex[k];
+    std::vector<std::array<idx, 3>> own(cells.begin() + charts.first_cell[k], cells.begin() + charts.first_cell[k + 1]);
+    for (auto& t : own)
+        for (idx& v : t) v -= first;
+    return {std::vector<vec3>(points.begin() + first, points.begin() + charts.first_vertex[k + 1]), std::move(own)};
+}
 
 /// Marks the sides where charts meet.
 /// chart: one label per triangle
@@ -144,6 +189,12 @@ struct vertex_fans
 {
     std::vector<idx> of_corner;    ///< one per corner
     std::vector<idx> first_corner; ///< one per fan, ascending
+
+    idx vertex(const mesh<triangle>& m, std::size_t fan) const
+    {
+        const auto corner = static_cast<std::size_t>(first_corner[fan]);
+        return m.cells()[corner / 3][corner % 3];
+    }
 };
 
 inline vertex_fans fans_between(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
@@ -199,27 +250,20 @@ inline chart_mesh cut_charts(const mesh<triangle>& m, const impl::facet_table& f
                     fans = impl::fans_between(m, f, seam);
         },
         0, 1);
-    const auto by_chart = [&](std::size_t n, auto&& chart_of)
+    const auto sorted = [](std::size_t n, idx rows, auto&& row_of)
     {
         std::vector<idx> order(n);
-        auto start = impl::counting_sort(n, u(charts), chart_of,
+        auto start = impl::counting_sort(n, static_cast<std::size_t>(rows), row_of,
                                          [&](std::size_t i, std::size_t at) { order[at] = static_cast<idx>(i); });
         return std::pair(std::move(start), std::move(order));
     };
-    auto [first_cell, cell_origins] = by_chart(cells, [&](std::size_t c) { return chart[c]; });
+    auto [first_cell, cell_origins] = sorted(cells, charts, [&](std::size_t c) { return chart[c]; });
 
     // Fans in the order of their vertices in the surface, then by chart.
-    const auto vertex_of = [&](idx fan)
-    {
-        const idx corner = fans.first_corner[u(fan)];
-        return m.cells()[u(corner / 3)][u(corner % 3)];
-    };
-    std::vector<idx> by_vertex(fans.first_corner.size());
-    impl::counting_sort(
-        by_vertex.size(), u(m.vertex_count()), [&](std::size_t i) { return vertex_of(static_cast<idx>(i)); },
-        [&](std::size_t i, std::size_t at) { by_vertex[at] = static_cast<idx>(i); });
-    auto [first_vertex, order] =
-        by_chart(by_vertex.size(), [&](std::size_t i) { return chart[u(fans.first_corner[u(by_vertex[i])] / 3)]; });
+    const auto by_vertex =
+        sorted(fans.first_corner.size(), m.vertex_count(), [&](std::size_t i) { return fans.vertex(m, i); }).second;
+    auto [first_vertex, order] = sorted(
+        by_vertex.size(), charts, [&](std::size_t i) { return chart[u(fans.first_corner[u(by_vertex[i])] / 3)]; });
 
     std::vector<vec3> points(order.size());
     std::vector<idx> vertex_origins(order.size()), place(order.size()); // of each fan
@@ -231,7 +275,7 @@ inline chart_mesh cut_charts(const mesh<triangle>& m, const impl::facet_table& f
                            {
                                const idx fan = by_vertex[u(order[i])];
                                place[u(fan)] = static_cast<idx>(i);
-                               vertex_origins[i] = vertex_of(fan);
+                               vertex_origins[i] = fans.vertex(m, u(fan));
                                points[i] = m.points()[u(vertex_origins[i])];
                            }
                        });

@@ -24,10 +24,8 @@ struct single_chart
 
     static single_chart of(const chart_mesh& charts, idx k)
     {
-        const auto u = [](idx i) { return static_cast<std::size_t>(i); };
-        const idx v0 = charts.first_vertex[u(k)], v1 = charts.first_vertex[u(k) + 1];
-        const idx c0 = charts.first_cell[u(k)], c1 = charts.first_cell[u(k) + 1];
-        std::vector<vec3> points(charts.surface.points().begin() + v0, charts.surface.points().begin() + v1);
+        const mesh<triangle> alone = chart_alone(charts, static_cast<std::size_t>(k));
+        std::vector<vec3> points = alone.points();
         const vec3 origin = points.front();
         double extent = 0;
         for (vec3& p : points)
@@ -37,10 +35,7 @@ struct single_chart
         }
         const double unit = extent > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(extent), -1000, 1000)) : 1.0;
         for (vec3& p : points) p *= unit;
-        std::vector<std::array<idx, 3>> cells(charts.surface.cells().begin() + c0, charts.surface.cells().begin() + c1);
-        for (auto& t : cells)
-            for (idx& v : t) v -= v0;
-        return {mesh<triangle>(std::move(points), std::move(cells)), unit};
+        return {mesh<triangle>(std::move(points), alone.cells()), unit};
     }
 };
 

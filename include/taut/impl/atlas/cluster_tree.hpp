@@ -15,7 +15,7 @@
 #include <taut/impl/atlas/arc_graph.hpp>
 #include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/chart_moments.hpp>
-#include <taut/impl/atlas/seams/seam_weights.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/core/budget.hpp>
 
 namespace taut::impl
@@ -40,6 +40,19 @@ struct cluster_tree
     std::vector<double> strain;               ///< one per node: estimated distortion above the minimum, times area
 
     idx nodes() const { return leaves + static_cast<idx>(children.size()); }
+
+    /// Number of triangles below each node.
+    std::vector<idx> triangles_below() const
+    {
+        std::vector<idx> below(static_cast<std::size_t>(nodes()), 0);
+        for (idx n = 0; n < nodes(); ++n)
+        {
+            const auto i = static_cast<std::size_t>(n);
+            if (n < triangles) below[i] = 1;
+            if (parents[i] != none) below[static_cast<std::size_t>(parents[i])] += below[i];
+        }
+        return below;
+    }
 
     /// Charts of an antichain: for each triangle the node among `chosen` (one flag per node) that it is in.
     std::vector<idx> labels(std::span<const char> chosen) const

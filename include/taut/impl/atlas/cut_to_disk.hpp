@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <taut/impl/atlas/seams/seam_arcs.hpp>
-#include <taut/impl/atlas/seams/seam_weights.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/core/disjoint_sets.hpp>
 
 namespace taut::impl

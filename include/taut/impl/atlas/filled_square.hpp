@@ -32,13 +32,14 @@ public:
     /// `packing`.
     filled_square(const mesh<triangle>& m, const facet_table& f, std::span<const vec2> uv,
                   std::span<const double> price, pack_params packing)
-        : mesh_(m), facets_(f), uv_(uv), price_(price), packing_(std::move(packing)), mark_(m.cells().size(), 0)
+        : mesh_(m),
+          facets_(f),
+          uv_(uv),
+          price_(price),
+          packing_(std::move(packing)),
+          area_(area_of(m, 0, m.cell_count())),
+          mark_(m.cells().size(), 0)
     {
-        for (std::size_t c = 0; c < m.cells().size(); ++c)
-        {
-            const auto x = m.rest(static_cast<idx>(c));
-            area_ += 0.5 * glm::length(glm::cross(x[1] - x[0], x[2] - x[0]));
-        }
     }
 
     /// seam: one flag a side; longest: what all cuts together may count. Returns the seams with those of the cuts.
@@ -69,16 +70,16 @@ public:
             best_spent = spent;
         }
         if (best_spent == 0) return first;
-        const double gain = use_of(charts_of(all, best), packing_effort::full) - at_first;
+        const double gain = use_of(best, packing_effort::full) - at_first;
         return gain > worth * best_spent / root ? best : first;
     }
 
     /// How much of the square charts use, about.
-    double use_of(std::span<const char> seam)
+    double use_of(std::span<const char> seam, packing_effort effort = packing_effort::estimate)
     {
         std::vector<idx> all(mesh_.cells().size());
         std::iota(all.begin(), all.end(), idx(0));
-        return use_of(charts_of(all, seam), packing_effort::estimate);
+        return use_of(charts_of(all, seam), effort);
     }
 
 private:
@@ -232,7 +233,7 @@ private:
     std::span<const vec2> uv_;
     std::span<const double> price_;
     pack_params packing_;
-    double area_ = 0;
+    double area_;
     std::vector<char> mark_; // of triangles, 0 between calls
 };
 

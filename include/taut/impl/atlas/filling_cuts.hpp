@@ -35,7 +35,7 @@ public:
     /// triangles: of the chart, ascending; seam, price: one a side of the surface
     waist_cutting(const mesh<triangle>& m, std::span<const idx> triangles, std::span<const char> seam,
                   std::span<const double> price)
-        : part_(made_part(m, triangles, seam)),
+        : part_(part_of(m, triangles, seam)),
           rest_(rest_surface::of(part_.charts.surface, part_.charts.surface.cell_count()))
     {
         for (std::size_t s = 0; s < rest_.price.size(); ++s) rest_.price[s] = price[part_.origin(s)];
@@ -62,12 +62,6 @@ public:
 
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
-
-    static surface_part made_part(const mesh<triangle>& m, std::span<const idx> triangles, std::span<const char> seam)
-    {
-        std::vector<idx> number(m.points().size(), -1);
-        return part_of(m, triangles, seam, number);
-    }
 
     /// Adds the cheapest cuts between what is near and what is far, in parts of the area.
     void add_cuts(std::span<const double> distance, std::span<const std::array<double, 2>> between,

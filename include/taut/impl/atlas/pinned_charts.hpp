@@ -10,16 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/atlas/atlas_params.hpp>
 #include <taut/impl/atlas/crossing_charts.hpp>
-#include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/packing/certificate.hpp>
+#include <taut/impl/packing/pack.hpp>
 
 namespace taut::impl
 {
 
-/// Pinned charts, and the rest of their surface.
+/// Charts of a surface that stay where they are, and the rest of the surface.
 class pinned_charts
 {
 public:
@@ -45,23 +46,22 @@ public:
     }
 
     /// The surface without them.
-    const mesh<triangle>& rest() const { return rest_.charts.surface; }
+    const surface_part& rest() const { return rest_; }
 
     /// Parameters for that surface. seams, together: storage that they refer to
     atlas_params of_rest(std::vector<char>& seams, std::vector<char>& together) const
     {
         atlas_params params = params_;
-        const auto of_part = [&](std::span<const char> flags)
-        {
-            std::vector<char> result(flags.empty() ? 0 : 3 * rest_.triangles.size());
-            for (std::size_t s = 0; s < result.size(); ++s) result[s] = flags[rest_.origin(s)];
-            return result;
-        };
-        params.charts.seams = seams = of_part(params.charts.seams);
-        params.charts.together = together = of_part(params.charts.together);
+        params.charts.seams = seams = rest_.by_side(params.charts.seams);
+        params.charts.together = together = rest_.by_side(params.charts.together);
         params.pinned.clear();
         params.initial.clear();
-        for (const idx c : rest_.triangles) params.initial.push_back(params_.initial[u(c)]);
+        params.groups.clear();
+        for (const idx c : rest_.triangles)
+        {
+            params.initial.push_back(params_.initial[u(c)]);
+            if (!params_.groups.empty()) params.groups.push_back(params_.groups[u(c)]);
+        }
         if (!params_.keep_charts) params.initial.clear();
         const auto sides = facets(pinned_.charts.surface);
         for (std::size_t k = 0; k < tiles_.size(); ++k)
@@ -75,14 +75,15 @@ public:
         return params;
     }
 
-    /// The charts of the rest, then the pinned ones.
-    atlas joined(atlas made) const
+    /// Adds the pinned charts to those of the rest. uv: places of these; pinned: one flag a chart then
+    void join(chart_mesh& charts, std::vector<vec2>& uv, packing& layout, std::vector<char>& pinned) const
     {
-        chart_mesh& charts = made.charts;
         std::vector<std::array<idx, 3>> cells = charts.surface.cells();
         for (idx& c : charts.cell_origins) c = rest_.triangles[u(c)];
-        const auto vertices = static_cast<idx>(made.uv.size()), before = static_cast<idx>(cells.size());
-        made.layout.places.resize(u(charts.charts())); // without an atlas of the rest there are none
+        const auto vertices = static_cast<idx>(uv.size()), before = static_cast<idx>(cells.size());
+        layout.places.resize(u(charts.charts())); // without an atlas of the rest there are none
+        pinned.assign(u(charts.charts()), 0);
+        pinned.resize(pinned.size() + tiles_.size(), 1);
         for (auto t : pinned_.charts.surface.cells())
         {
             for (idx& v : t) v += vertices;
@@ -93,11 +94,12 @@ public:
         {
             charts.first_cell.push_back(before + pinned_.charts.first_cell[k + 1]);
             charts.first_vertex.push_back(vertices + pinned_.charts.first_vertex[k + 1]);
-            made.layout.places.push_back({.tile = tiles_[k]});
+            layout.places.push_back({.tile = tiles_[k]});
         }
-        made.uv.insert(made.uv.end(), uv_.begin(), uv_.end());
-        charts.vertex_origins.assign(made.uv.size(), 0);
-        std::vector<vec3> points(made.uv.size());
+        layout.utilization += area() / params_.packing.tiles;
+        uv.insert(uv.end(), uv_.begin(), uv_.end());
+        charts.vertex_origins.assign(uv.size(), 0);
+        std::vector<vec3> points(uv.size());
         for (std::size_t i = 0; i < cells.size(); ++i)
             for (std::size_t k = 0; k < 3; ++k)
             {
@@ -106,10 +108,10 @@ public:
                 points[u(cells[i][k])] = mesh_.points()[u(v)];
             }
         charts.surface = mesh<triangle>(std::move(points), std::move(cells));
-        return made;
     }
 
-    idx charts() const { return pinned_.charts.charts(); }
+private:
+    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
     /// Area of their triangles in the atlas.
     double area() const
@@ -120,17 +122,13 @@ public:
         return sum;
     }
 
-private:
-    static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
-
     vec2 corner(idx tile) const { return params_.origin + vec2(tile % 10, tile / 10); }
 
     surface_part part(bool pinned, std::span<const char> seam) const
     {
-        std::vector<idx> triangles, number(mesh_.points().size(), -1);
-        for (idx c = 0; c < mesh_.cell_count(); ++c)
-            if ((params_.pinned[u(c)] != 0) == pinned) triangles.push_back(c);
-        return part_of(mesh_, triangles, seam, number);
+        std::vector<char> wanted;
+        for (const char flag : params_.pinned) wanted.push_back((flag != 0) == pinned);
+        return part_of(mesh_, wanted, seam);
     }
 
     void place()
@@ -176,15 +174,14 @@ private:
             if (crossing[u(k)]) refuse(k, "overlaps itself");
         const auto overlaps = find_chart_overlaps(uv_, cells, charts.first_cell, charts.first_vertex);
         if (overlaps.pairs > 0)
-            refuse(overlaps.first[0], "overlaps that of triangle " + std::to_string(first_triangle(overlaps.first[1])) +
+            refuse(overlaps.first[0], "overlaps that of triangle " +
+                                          std::to_string(pinned_.first_triangle(u(overlaps.first[1]))) +
                                           ", which is pinned, too");
     }
 
-    idx first_triangle(idx chart) const { return pinned_.triangles[u(pinned_.charts.first_cell[u(chart)])]; }
-
     [[noreturn]] void refuse(idx chart, const std::string& why) const
     {
-        const idx c = first_triangle(chart);
+        const idx c = pinned_.first_triangle(u(chart));
         throw packing_error(packing_error::pinned, {c},
                             "the pinned chart of triangle " + std::to_string(c) + ' ' + why + "; do not pin it");
     }

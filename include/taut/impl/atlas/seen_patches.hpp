@@ -23,9 +23,7 @@ struct seen_patches
 {
     std::vector<idx> patch;              ///< one per triangle, -1 where none was wanted
     std::vector<std::array<vec2, 3>> uv; ///< by corner, in units of the surface
-    std::vector<double> energy;          ///< one per patch: area mean of the isometric energy
-
-    static constexpr double most_energy = 6.25; ///< that of a triangle which is seen at 60 degrees
+    std::vector<double> energy; ///< one per patch: area mean of the isometric energy, below 6.25, that of 60 degrees
 };
 
 /// Grows patches breadth-first, in one region of a surface.

@@ -84,20 +84,15 @@ struct segment_params
 namespace taut::impl
 {
 
-/// Report of a segmentation, with its seconds.
+/// Report of a segmentation.
 struct segment_report
 {
-    double distortion = 4;         ///< distortion of the whole surface, charts without a map left out
-    double largest_distortion = 4; ///< maximum distortion of a chart that has a map
-    idx unmapped = 0;              ///< charts without a valid map
-    idx above = 0;                 ///< charts above max_distortion: of single triangles, or for want of rounds or time
-    idx crossing = 0;              ///< charts whose boundary meets itself in the plane
-    idx cut = 0, united = 0;       ///< charts cut further, pairs united
-    double seam_length = 0;        ///< in units of the surface
-    double tree_seconds = 0;       ///< pieces united to a tree
-    double straighten_seconds = 0;
-    double flatten_seconds = 0;
-    double total_seconds = 0;
+    double distortion = 4;   ///< distortion of the whole surface, charts without a map left out
+    idx unmapped = 0;        ///< charts without a valid map
+    idx above = 0;           ///< charts above max_distortion: of single triangles, or for want of rounds or time
+    idx crossing = 0;        ///< charts whose boundary meets itself in the plane
+    idx cut = 0, united = 0; ///< charts cut further, pairs united
+    double seam_length = 0;  ///< in units of the surface
 };
 
 } // namespace taut::impl
@@ -134,11 +129,9 @@ using charts_to_maps = std::function<chart_maps(const chart_mesh&, std::span<con
 /// Segmentation before the surface is cut apart.
 struct uncut_segmentation
 {
-    std::vector<char> seam;     ///< one flag per side
-    std::vector<vec2> uv;       ///< one per corner
-    std::vector<double> energy; ///< one per triangle: of its chart
-    std::vector<char> crosses;  ///< one per triangle: whether its chart overlaps itself
-    segment_report report;      ///< but for what it says of seams and counts of charts
+    laid_surface laid;
+    std::vector<char> crosses; ///< one per triangle: whether its chart overlaps itself
+    segment_report report;     ///< but for what it says of seams and counts of charts
 };
 
 uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,

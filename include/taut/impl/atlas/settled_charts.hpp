@@ -34,12 +34,7 @@ inline bool is_hopeless(std::span<const vec2> x, idx triangles, const settling& 
 {
     constexpr idx few = 64;
     if (how.stored == nullptr || triangles < few) return false;
-    vec2 low = x.front(), high = low;
-    for (const vec2& p : x)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
+    const auto [low, high] = box_about(x);
     return glm::length(high - low) < 16 * std::sqrt(static_cast<double>(triangles)) * spacing_at(high, how.stored);
 }
 

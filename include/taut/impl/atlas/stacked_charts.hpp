@@ -24,7 +24,7 @@ class stacked_charts
 public:
     /// groups: a label per chart, which copies have in common; or empty
     stacked_charts(const chart_mesh& charts, std::span<const idx> groups)
-        : charts_(charts),
+        : charts_(&charts),
           facets_(facets(charts.surface)),
           twin_(charts.surface.points().size()),
           side_(3 * charts.surface.cells().size())
@@ -72,7 +72,7 @@ public:
         const auto from = best(distortion);
         for (const idx leader : leaders_)
             if (const auto k = u(from[u(leader)]); k != u(leader))
-                for (auto v = u(charts_.first_vertex[k]); v < u(charts_.first_vertex[k + 1]); ++v)
+                for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
                     of_vertices[u(twin_[v])] = of_vertices[v];
     }
 
@@ -123,11 +123,11 @@ private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
     static idx size_of(std::span<const idx> first, idx k) { return first[u(k) + 1] - first[u(k)]; }
 
-    idx corner(idx side) const { return charts_.surface.cells()[u(side / 3)][u(side % 3)]; }
+    idx corner(idx side) const { return charts_->surface.cells()[u(side / 3)][u(side % 3)]; }
     static idx next(idx side) { return side % 3 == 2 ? side - 2 : side + 1; }
     double length(idx side) const
     {
-        const auto& x = charts_.surface.points();
+        const auto& x = charts_->surface.points();
         return glm::length(x[u(corner(next(side)))] - x[u(corner(next(next(side))))]);
     }
     bool alike(idx a, idx b) const
@@ -140,20 +140,20 @@ private:
     std::pair<idx, idx> border(idx k) const
     {
         idx first = -1, count = 0;
-        for (idx s = 3 * charts_.first_cell[u(k)]; s < 3 * charts_.first_cell[u(k) + 1]; ++s)
+        for (idx s = 3 * charts_->first_cell[u(k)]; s < 3 * charts_->first_cell[u(k) + 1]; ++s)
             if (facets_.twin[u(s)] < 0)
             {
                 if (first < 0) first = s;
                 ++count;
             }
-        return {first < 0 ? 3 * charts_.first_cell[u(k)] : first, count};
+        return {first < 0 ? 3 * charts_->first_cell[u(k)] : first, count};
     }
 
     /// Finds a copy of chart a in chart b, and notes its vertices.
     bool match(idx a, idx b)
     {
         const idx begin = border(a).first;
-        for (idx s = 3 * charts_.first_cell[u(b)]; s < 3 * charts_.first_cell[u(b) + 1]; ++s)
+        for (idx s = 3 * charts_->first_cell[u(b)]; s < 3 * charts_->first_cell[u(b) + 1]; ++s)
             if ((facets_.twin[u(s)] < 0) == (facets_.twin[u(begin)] < 0) && alike(begin, s) && walk(begin, s, b))
                 return true;
         return false;
@@ -162,13 +162,13 @@ private:
     /// Walks over both charts from these sides, triangle by triangle.
     bool walk(idx from, idx to, idx b)
     {
-        std::vector<idx> cell(u(size_of(charts_.first_cell, b)), -1), vertex(u(size_of(charts_.first_vertex, b)), -1);
+        std::vector<idx> cell(u(size_of(charts_->first_cell, b)), -1), vertex(u(size_of(charts_->first_vertex, b)), -1);
         std::vector<std::pair<idx, idx>> open{{from, to}}, sides;
         while (!open.empty())
         {
             auto [s, t] = open.back();
             open.pop_back();
-            idx& known = cell[u(t / 3 - charts_.first_cell[u(b)])];
+            idx& known = cell[u(t / 3 - charts_->first_cell[u(b)])];
             if (known >= 0)
             {
                 if (known != s / 3) return false;
@@ -177,7 +177,7 @@ private:
             known = s / 3;
             for (int k = 0; k < 3; ++k, s = next(s), t = next(t))
             {
-                idx& own = vertex[u(corner(t) - charts_.first_vertex[u(b)])];
+                idx& own = vertex[u(corner(t) - charts_->first_vertex[u(b)])];
                 if (!alike(s, t) || (own >= 0 && own != corner(s))) return false;
                 own = corner(s);
                 sides.emplace_back(s, t);
@@ -187,12 +187,12 @@ private:
             }
         }
         if (std::count(vertex.begin(), vertex.end(), idx{-1}) > 0) return false;
-        for (std::size_t v = 0; v < vertex.size(); ++v) twin_[u(charts_.first_vertex[u(b)]) + v] = vertex[v];
+        for (std::size_t v = 0; v < vertex.size(); ++v) twin_[u(charts_->first_vertex[u(b)]) + v] = vertex[v];
         for (const auto& [s, t] : sides) side_[u(t)] = s;
         return true;
     }
 
-    const chart_mesh& charts_;
+    const chart_mesh* charts_;
     facet_table facets_;
     std::vector<idx> twin_; // of each vertex, that of the first chart
     std::vector<idx> side_; // of each side, that of the first chart

@@ -19,131 +19,109 @@
 namespace taut::impl
 {
 
-/// Charts of a surface with their maps, and their replacement in cuts and unions.
-class surface_charts
+/// A chart of surface_charts.
+struct chart_record
 {
-public:
+    double area = 0, energy = 4;
+    laid_shape shape;
+    std::vector<idx> triangles; // ascending; none: there is no such chart any more
+    char settled = 1;           // its map is that of least energy
+    char strained = 1;          // of one that is cut: there is too much distortion, or it is ragged
+
+    double excess() const { return area * (energy - 4); }
+};
+
+/// Charts of a surface with their maps while segment() cuts and unites them.
+struct surface_charts
+{
     surface_charts(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
-                   const segment_params& params)
-        : mesh_(m),
-          facets_(f),
-          flatten_(flatten),
-          params_(params),
-          budget_(params.limits.time_limit, params.limits.observer),
-          seam_(f.twin.size(), 0),
-          uv_(f.twin.size(), vec2(0.0)),
-          chart_(m.cells().size(), 0),
-          number_(m.points().size(), -1),
-          place_(m.cells().size(), -1),
-          area_(m.cells().size())
+                   const segment_params& how)
+        : surface(m),
+          facets(f),
+          map_charts(flatten),
+          params(how),
+          clock(how.limits.time_limit, how.limits.observer),
+          laid{std::vector<char>(f.twin.size(), 0), std::vector<vec2>(f.twin.size(), vec2(0.0)),
+               std::vector<double>(m.cells().size(), infinite)},
+          chart(m.cells().size(), 0),
+          areas(m.cells().size())
     {
-        for (std::size_t c = 0; c < area_.size(); ++c)
+        for (std::size_t c = 0; c < areas.size(); ++c)
         {
-            const auto x = m.rest(static_cast<idx>(c));
-            area_[c] = glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
+            areas[c] = triangle_area(m, static_cast<idx>(c));
         }
-        total_area_ = std::accumulate(area_.begin(), area_.end(), 0.0);
+        total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
     }
 
-protected:
     static constexpr double infinite = std::numeric_limits<double>::infinity();
-
-    struct record
-    {
-        double area = 0, energy = 4;
-        laid_shape shape;
-        std::vector<idx> triangles; // ascending; none: there is no such chart any more
-        char settled = 1;           // its map is that of least energy
-        char strained = 1;          // of one that is cut: there is too much distortion, or it is ragged
-
-        double excess() const { return area * (energy - 4); }
-    };
 
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    bool proceed(int round) { return budget_.proceed({.iteration = round, .value = 4 + total_excess() / total_area_}); }
+    bool proceed(int round) { return clock.proceed({.iteration = round, .value = 4 + total_excess() / total_area}); }
 
-    double allowed() const { return (params_.mean_distortion - 4) * total_area_; }
+    double allowed() const { return (params.mean_distortion - 4) * total_area; }
 
     /// Total excess of distortion over the charts that have a map.
     double total_excess() const
     {
         double sum = 0;
-        for (const record& r : charts_)
+        for (const chart_record& r : records)
             if (!r.triangles.empty() && r.energy < infinite) sum += r.excess();
         return sum;
     }
 
     /// Share of a chart in the total distortion that is allowed. Pieces of a chart above the bound will be below it.
-    double to_share(const record& r) const
+    double to_share(const chart_record& r) const
     {
-        return r.energy < infinite ? std::min(r.excess(), (params_.max_distortion - 4) * r.area) : 0;
+        return r.energy < infinite ? std::min(r.excess(), (params.max_distortion - 4) * r.area) : 0;
     }
 
-    /// Number of triangles below each node of a tree.
-    static std::vector<idx> triangles_below(const cluster_tree& tree)
-    {
-        std::vector<idx> triangles(u(tree.nodes()), 0);
-        for (idx n = 0; n < tree.nodes(); ++n)
-        {
-            if (n < tree.triangles) triangles[u(n)] = 1;
-            if (const idx parent = tree.parents[u(n)]; parent != cluster_tree::none)
-                triangles[u(parent)] += triangles[u(n)];
-        }
-        return triangles;
-    }
-
-    /// Flattens some of the pieces of an antichain, and calls told(node, energy, overlaps itself).
+    /// Flattens some of the pieces of an antichain, and calls told(node, energy).
     template <class Told>
     void flatten_some(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
                       const std::vector<char>& antichain, const std::vector<char>& some, Told&& told)
     {
         const auto label = tree.labels(some);
-        std::vector<idx> triangles;
-        for (idx c = 0; c < tree.triangles; ++c)
-            if (label[u(c)] != cluster_tree::none) triangles.push_back(c);
-        std::vector<idx> number(m.points().size(), -1);
-        const surface_part part = part_of(m, triangles, tree.seams(f, tree.labels(antichain)), number);
+        std::vector<char> wanted;
+        for (const idx n : label) wanted.push_back(n != cluster_tree::none);
+        const surface_part part = part_of(m, wanted, tree.seams(f, tree.labels(antichain)));
         const auto [maps, shapes] = flatten(part);
-        for (idx k = 0; k < part.charts.charts(); ++k)
-            told(label[u(part.triangles[u(part.charts.first_cell[u(k)])])], maps.energy[u(k)], shapes[u(k)].crosses);
+        for (std::size_t k = 0; k < shapes.size(); ++k) told(label[u(part.first_triangle(k))], maps.energy[k]);
     }
 
     /// Rebuilds the charts of these triangles from the seams, with their maps.
     void renew(std::span<const idx> triangles)
     {
         for (const idx c : triangles)
-            if (!charts_.empty()) charts_[u(chart_[u(c)])].triangles.clear();
-        const surface_part part = part_of(mesh_, triangles, seam_, number_);
+            if (!records.empty()) records[u(chart[u(c)])].triangles.clear();
+        const surface_part part = part_of(surface, triangles, laid.seam);
         const auto [maps, shapes] = flatten(part);
         for (idx k = 0; k < part.charts.charts(); ++k) take(part, maps, shapes[u(k)], k);
     }
 
     std::pair<chart_maps, std::vector<laid_shape>> flatten(const surface_part& part, std::span<const vec2> start = {})
     {
-        budget_.lap();
-        chart_maps maps = flatten_(part.charts, start);
-        report_.flatten_seconds += budget_.lap();
-        auto shapes = laid_shapes(part.charts, maps.uv, maps.energy, budget_.proceed()); // of a run that ends now, less
+        chart_maps maps = map_charts(part.charts, start);
+        auto shapes = laid_shapes(part.charts, maps.uv, maps.energy, clock.proceed()); // of a run that ends now, less
         return {std::move(maps), std::move(shapes)};
     }
 
     /// Takes chart k of a part, with its map.
     void take(const surface_part& part, const chart_maps& maps, const laid_shape& shape, idx k)
     {
-        record r{
+        chart_record r{
             .area = 0, .energy = maps.energy[u(k)], .shape = shape, .triangles = {}, .settled = maps.settled[u(k)]};
         for (auto& pair : r.shape.meetings)
             for (idx& c : pair) c = part.triangles[u(c)];
         for (auto i = u(part.charts.first_cell[u(k)]); i < u(part.charts.first_cell[u(k) + 1]); ++i)
         {
             const idx c = part.triangles[i];
-            chart_[u(c)] = static_cast<idx>(charts_.size());
-            r.area += area_[u(c)];
+            chart[u(c)] = static_cast<idx>(records.size());
+            r.area += areas[u(c)];
             r.triangles.push_back(c);
-            for (std::size_t j = 0; j < 3; ++j) uv_[3 * u(c) + j] = maps.uv[u(part.charts.surface.cells()[i][j])];
         }
-        charts_.push_back(std::move(r));
+        part.write(u(k), r.energy, maps.uv, laid);
+        records.push_back(std::move(r));
     }
 
     /// The triangles of charts, ascending.
@@ -151,7 +129,7 @@ protected:
     {
         std::vector<idx> triangles;
         for (const idx k : charts)
-            triangles.insert(triangles.end(), charts_[u(k)].triangles.begin(), charts_[u(k)].triangles.end());
+            triangles.insert(triangles.end(), records[u(k)].triangles.begin(), records[u(k)].triangles.end());
         std::sort(triangles.begin(), triangles.end());
         return triangles;
     }
@@ -160,19 +138,16 @@ protected:
     void settle()
     {
         std::vector<idx> some;
-        for (idx k = 0; k < static_cast<idx>(charts_.size()); ++k)
-            if (!charts_[u(k)].settled && !charts_[u(k)].triangles.empty()) some.push_back(k);
-        if (some.empty() || !budget_.proceed()) return;
+        for (idx k = 0; k < static_cast<idx>(records.size()); ++k)
+            if (!records[u(k)].settled && !records[u(k)].triangles.empty()) some.push_back(k);
+        if (some.empty() || !clock.proceed()) return;
         const auto triangles = triangles_of(some);
-        const surface_part part = part_of(mesh_, triangles, seam_, number_);
-        std::vector<vec2> start(part.charts.surface.points().size());
-        for (std::size_t i = 0; i < part.triangles.size(); ++i)
-            for (std::size_t j = 0; j < 3; ++j)
-                start[u(part.charts.surface.cells()[i][j])] = uv_[3 * u(part.triangles[i]) + j];
+        const surface_part part = part_of(surface, triangles, laid.seam);
+        const auto start = part.by_vertex(laid.uv);
         const auto [maps, shapes] = flatten(part, start);
         for (idx k = 0; k < part.charts.charts(); ++k)
         {
-            record& before = charts_[u(chart_[u(part.triangles[u(part.charts.first_cell[u(k)])])])];
+            chart_record& before = records[u(chart[u(part.first_triangle(u(k)))])];
             if (!(maps.energy[u(k)] <= before.energy)) continue; // the time was over before its turn
             before.triangles.clear();
             take(part, maps, shapes[u(k)], k);
@@ -180,65 +155,53 @@ protected:
     }
 
     /// Joins two charts, or one given twice, as they are.
-    record before(const std::array<idx, 2>& charts) const
+    chart_record before(const std::array<idx, 2>& charts) const
     {
-        const record &a = charts_[u(charts[0])], &b = charts_[u(charts[1])];
+        const chart_record &a = records[u(charts[0])], &b = records[u(charts[1])];
         if (charts[0] == charts[1])
             return {.area = a.area, .energy = a.energy, .shape = {a.shape.crosses, a.shape.fill, {}}, .triangles = {}};
-        const double area = a.area + b.area;
-        return {.area = area,
-                .energy = 4 + (a.excess() + b.excess()) / area,
+        const double sum = a.area + b.area;
+        return {.area = sum,
+                .energy = 4 + (a.excess() + b.excess()) / sum,
                 .shape = {false, std::min(a.shape.fill, b.shape.fill), {}},
                 .triangles = {}};
     }
 
     double length(std::size_t side) const
     {
-        const auto [a, b] = side_vertices(mesh_, static_cast<idx>(side));
-        return glm::distance(mesh_.points()[u(a)], mesh_.points()[u(b)]);
+        const auto [a, b] = side_vertices(surface, static_cast<idx>(side));
+        return glm::distance(surface.points()[u(a)], surface.points()[u(b)]);
     }
 
     uncut_segmentation result()
     {
         uncut_segmentation r;
-        double area = 0;
-        for (const record& one : charts_)
+        double mapped = 0;
+        for (const chart_record& one : records)
         {
-            if (one.triangles.empty() || !(one.energy < infinite)) continue;
-            area += one.area;
-            report_.largest_distortion = std::max(report_.largest_distortion, one.energy);
+            if (!one.triangles.empty() && one.energy < infinite) mapped += one.area;
         }
-        if (area > 0) report_.distortion = 4 + total_excess() / area;
-        r.energy.reserve(chart_.size());
-        r.crosses.reserve(chart_.size());
-        for (const idx k : chart_)
-        {
-            r.energy.push_back(charts_[u(k)].energy);
-            r.crosses.push_back(charts_[u(k)].shape.crosses);
-        }
-        report_.total_seconds = budget_.total();
-        r.seam = std::move(seam_);
-        r.uv = std::move(uv_);
-        r.report = report_;
+        if (mapped > 0) report.distortion = 4 + total_excess() / mapped;
+        r.crosses.reserve(chart.size());
+        for (const idx k : chart) r.crosses.push_back(records[u(k)].shape.crosses);
+        r.laid = std::move(laid);
+        r.report = report;
         return r;
     }
 
-    const mesh<triangle>& mesh_;
-    const facet_table& facets_;
-    const charts_to_maps& flatten_;
-    const segment_params& params_;
-    budget budget_;
-    segment_report report_;
-    std::vector<char> seam_;  // one per side
-    std::vector<vec2> uv_;    // one per corner
-    std::vector<idx> chart_;  // one per triangle: its record
-    std::vector<idx> number_; // for part_of()
-    csr sides_;               // that start at each vertex, once they are asked for
-    std::vector<idx> place_;  // of triangles in the part that is cut
-    std::vector<double> area_;
-    double total_area_ = 0;
-    std::vector<record> charts_;
-    std::vector<std::array<idx, 2>> refused_; // pairs that the bounds did not allow, ascending
+    const mesh<triangle>& surface;
+    const facet_table& facets;
+    const charts_to_maps& map_charts;
+    const segment_params& params;
+    budget clock;
+    segment_report report;
+    laid_surface laid;
+    std::vector<idx> chart;    // one per triangle: its chart_record
+    csr sides;                 // that start at each vertex, once they are asked for
+    std::vector<double> areas; ///< of triangles
+    double total_area = 0;
+    std::vector<chart_record> records;
+    std::vector<std::array<idx, 2>> refused; // pairs that the bounds did not allow, ascending
 };
 
 } // namespace taut::impl

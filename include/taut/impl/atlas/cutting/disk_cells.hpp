@@ -48,10 +48,7 @@ public:
     /// wanted: one flag per triangle; size: triangles of a cell, at most. Cells in the order of the surface.
     std::vector<disk_cell> run(std::span<const char> wanted, idx size) const
     {
-        std::vector<idx> triangles, number(mesh_.points().size(), -1);
-        for (std::size_t c = 0; c < wanted.size(); ++c)
-            if (wanted[c]) triangles.push_back(static_cast<idx>(c));
-        const surface_part part = part_of(mesh_, triangles, seam_, number);
+        const surface_part part = part_of(mesh_, wanted, seam_);
         std::vector<piece> pieces; // of the size of cells, nearly, so that they are worked on in parallel
         for (idx k = 0; k < part.charts.charts(); ++k)
         {
@@ -97,14 +94,8 @@ private:
 
     static piece piece_of(const chart_mesh& charts, idx k, std::span<const idx> triangles)
     {
-        const idx v0 = charts.first_vertex[u(k)], c0 = charts.first_cell[u(k)], c1 = charts.first_cell[u(k) + 1];
-        std::vector<vec3> points(charts.surface.points().begin() + v0,
-                                 charts.surface.points().begin() + charts.first_vertex[u(k) + 1]);
-        std::vector<std::array<idx, 3>> cells(charts.surface.cells().begin() + c0, charts.surface.cells().begin() + c1);
-        for (auto& t : cells)
-            for (idx& v : t) v -= v0;
-        return {mesh<triangle>(std::move(points), std::move(cells)),
-                std::vector<idx>(triangles.begin() + c0, triangles.begin() + c1)};
+        return {chart_alone(charts, u(k)), std::vector<idx>(triangles.begin() + charts.first_cell[u(k)],
+                                                            triangles.begin() + charts.first_cell[u(k) + 1])};
     }
 
     /// The best of the maps that cost little.
@@ -163,7 +154,7 @@ private:
         for (const piece& one : smaller)
         {
             maps.push_back(map_of(one));
-            const double own = area_of(one.surface);
+            const double own = area_of(one.surface, 0, one.surface.cell_count());
             excess += own * (std::min(maps.back().energy, made.energy) - 4);
             area += own;
         }
@@ -181,17 +172,6 @@ private:
         cells.push_back({p.triangles, {}, made.energy});
         for (const auto& t : p.surface.cells())
             cells.back().uv.push_back({made.uv[u(t[0])], made.uv[u(t[1])], made.uv[u(t[2])]});
-    }
-
-    static double area_of(const mesh<triangle>& m)
-    {
-        double sum = 0;
-        for (idx c = 0; c < m.cell_count(); ++c)
-        {
-            const auto x = m.rest(c);
-            sum += glm::length(glm::cross(x[1] - x[0], x[2] - x[0])) / 2;
-        }
-        return sum;
     }
 
     /// So many cells of a piece, each about the triangle that is farthest from those before.

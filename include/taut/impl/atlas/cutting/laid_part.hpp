@@ -32,10 +32,9 @@ struct laid_part
     static laid_part of(const mesh<triangle>& m, const laid_seams& laid, std::span<const char> kept,
                         std::span<const double> factors)
     {
-        std::vector<idx> number(m.points().size(), -1);
         std::vector<char> given(kept.begin(), kept.end());
         given.resize(3 * m.cells().size(), 0);
-        surface_part part = part_of(m, laid.some, given, number);
+        surface_part part = part_of(m, laid.some, given);
         rest_surface rest = rest_surface::of(part.charts.surface, part.charts.surface.cell_count());
         if (!factors.empty())
             for (std::size_t s = 0; s < rest.price.size(); ++s) rest.price[s] *= factors[part.origin(s)];

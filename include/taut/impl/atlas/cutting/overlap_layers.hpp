@@ -49,12 +49,7 @@ inline std::vector<std::array<idx, 2>> overlapping_pairs(const rest_surface& res
 {
     const auto u = rest_surface::u;
     const idx cells = rest.first_span;
-    vec2 low = uv[0], high = uv[0];
-    for (const vec2& p : uv)
-    {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
+    const auto [low, high] = box_about(uv);
     const double size = std::max({1.5 * std::sqrt(rest.total / std::max<idx>(1, cells)),
                                   std::max(high.x - low.x, high.y - low.y) / 2000, 1e-300});
     struct entry
@@ -90,6 +85,28 @@ inline std::vector<std::array<idx, 2>> overlapping_pairs(const rest_surface& res
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
+}
+
+/// Sorts the triangles of two layers, leaves out those in both, which part nothing (a spiral lies on itself), and
+/// measures the smaller layer.
+inline void separate(const rest_surface& rest, overlap_layers& layers)
+{
+    for (auto* side : {&layers.below, &layers.above})
+    {
+        std::sort(side->begin(), side->end());
+        side->erase(std::unique(side->begin(), side->end()), side->end());
+    }
+    std::vector<idx> both;
+    std::set_intersection(layers.below.begin(), layers.below.end(), layers.above.begin(), layers.above.end(),
+                          std::back_inserter(both));
+    std::array<double, 2> area{};
+    for (std::size_t k = 0; k < 2; ++k)
+    {
+        auto& side = k == 0 ? layers.below : layers.above;
+        std::erase_if(side, [&](idx c) { return std::binary_search(both.begin(), both.end(), c); });
+        for (const idx c : side) area[k] += rest.area[rest_surface::u(c)];
+    }
+    layers.area = std::min(area[0], area[1]);
 }
 
 /// The layers of each overlap: pairs (a, b) and (a', b') belong together where a' is a neighbour of a in the chart, or
@@ -129,7 +146,6 @@ inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const
         }
     std::vector<overlap_layers> result;
     std::vector<idx> number(pairs.size(), -1);
-    std::vector<char> done(pairs.size(), 0);
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
         const idx root = sets.find(static_cast<idx>(i));
@@ -144,24 +160,7 @@ inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const
         result[u(number[u(own)])].below.push_back(pairs[i][0]);
         result[u(number[u(own)])].above.push_back(pairs[i][1]);
     }
-    for (auto& r : result)
-    {
-        for (auto* side : {&r.below, &r.above})
-        {
-            std::sort(side->begin(), side->end());
-            side->erase(std::unique(side->begin(), side->end()), side->end());
-        }
-        std::vector<idx> both; // a spiral lies on itself: what is in both layers parts nothing
-        std::set_intersection(r.below.begin(), r.below.end(), r.above.begin(), r.above.end(), std::back_inserter(both));
-        std::array<double, 2> area{};
-        for (std::size_t k = 0; k < 2; ++k)
-        {
-            auto& side = k == 0 ? r.below : r.above;
-            std::erase_if(side, [&](idx c) { return std::binary_search(both.begin(), both.end(), c); });
-            for (const idx c : side) area[k] += rest.area[u(c)];
-        }
-        r.area = std::min(area[0], area[1]);
-    }
+    for (auto& r : result) separate(rest, r);
     std::stable_sort(result.begin(), result.end(),
                      [](const overlap_layers& a, const overlap_layers& b) { return a.area > b.area; });
     return result;

@@ -12,7 +12,6 @@
 #include <taut/impl/atlas/cutting/over_cut.hpp>
 #include <taut/impl/atlas/cutting/part_charts.hpp>
 #include <taut/impl/atlas/cutting/sew_tips.hpp>
-#include <taut/impl/atlas/cutting/strained_cuts.hpp>
 #include <taut/impl/atlas/seams/straighten.hpp>
 #include <taut/impl/start/barycentric_map.hpp>
 

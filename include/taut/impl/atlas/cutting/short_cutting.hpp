@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/atlas/cutting/coarse_surface.hpp>
 #include <taut/impl/atlas/cutting/lift_seams.hpp>
 #include <taut/impl/atlas/cutting/seam_search.hpp>
-#include <taut/impl/atlas/cutting/span_holes.hpp>
 #include <taut/impl/atlas/cutting/way_prices.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/core/budget.hpp>
@@ -45,9 +45,12 @@ public:
           facets_(f),
           params_(params),
           limits_(limits),
-          pieces_(cut_charts(m, f, flags(params.seams, f.twin.size()))),
-          searches_(u(pieces_.charts()))
+          pieces_{cut_charts(m, f, flags(params.seams, f.twin.size())), {}},
+          searches_(u(pieces_.charts.charts()))
     {
+        pieces_.triangles = pieces_.charts.cell_origins;
+        together_ = pieces_.by_side(params.together);
+        factors_ = pieces_.by_side(params.factors);
     }
 
     /// Looks for seams within the bound.
@@ -147,8 +150,7 @@ public:
         std::vector<char> result(mesh_.cells().size(), 0);
         for (std::size_t k = 0; k < searches_.size(); ++k)
             if (!searches_[k] || !searches_[k]->search)
-                for (auto i = u(pieces_.first_cell[k]); i < u(pieces_.first_cell[k + 1]); ++i)
-                    result[u(pieces_.cell_origins[i])] = 1;
+                for (std::size_t i = 0; i < cells(k); ++i) result[origin(k, 3 * i) / 3] = 1;
         return result;
     }
 
@@ -199,12 +201,17 @@ private:
         double bound = 4, price = 0;
     };
 
-    std::size_t cells(std::size_t k) const { return u(pieces_.first_cell[k + 1] - pieces_.first_cell[k]); }
+    std::size_t first(std::size_t k) const { return u(pieces_.charts.first_cell[k]); }
+    std::size_t cells(std::size_t k) const { return first(k + 1) - first(k); }
 
     /// The side of the surface that is side s of a piece.
-    std::size_t origin(std::size_t k, std::size_t s) const
+    std::size_t origin(std::size_t k, std::size_t s) const { return pieces_.origin(3 * first(k) + s); }
+
+    /// Values of the sides of a piece, or none, among those of all pieces.
+    template <class T>
+    std::span<const T> own(const std::vector<T>& all, std::size_t k) const
     {
-        return 3 * u(pieces_.cell_origins[u(pieces_.first_cell[k]) + s / 3]) + s % 3;
+        return all.empty() ? std::span<const T>() : std::span<const T>(all).subspan(3 * first(k), 3 * cells(k));
     }
 
     /// Calls work(i) for all i below n on several threads, as long as the run is to go on.
@@ -232,13 +239,7 @@ private:
     {
         searches_[k] = std::make_unique<piece_search>();
         piece_search& p = *searches_[k];
-        const idx v0 = pieces_.first_vertex[k], c0 = pieces_.first_cell[k];
-        const auto& all = pieces_.surface;
-        std::vector<vec3> points(all.points().begin() + v0, all.points().begin() + pieces_.first_vertex[k + 1]);
-        std::vector<std::array<idx, 3>> own(all.cells().begin() + c0, all.cells().begin() + pieces_.first_cell[k + 1]);
-        for (auto& t : own)
-            for (idx& v : t) v -= v0;
-        p.surface.emplace(std::move(points), std::move(own));
+        p.surface = chart_alone(pieces_.charts, k);
         p.facets = facets(*p.surface);
         coarse_surface coarse =
             make_coarse(*p.surface, p.facets,
@@ -249,17 +250,12 @@ private:
         p.origins = std::move(coarse.origins);
         const idx first_span = span_small_holes(coarse);
         p.rest = rest_surface::of(mesh<triangle>(std::move(coarse.points), std::move(coarse.cells)), first_span);
-        if (!params_.factors.empty())
-        {
-            if (p.coarser)
-                p.rest->price =
-                    way_prices(*p.surface, p.facets, starting_sides(*p.surface), fine_prices(k), *p.rest, p.origins);
-            else
-                for (std::size_t s = 0; s < 3 * u(first_span); ++s) p.rest->price[s] *= params_.factors[origin(k, s)];
-        }
-        if (!p.coarser && !params_.together.empty())
-            for (std::size_t s = 0; s < 3 * u(first_span); ++s)
-                if (params_.together[origin(k, s)]) p.rest->price[s] *= unwanted;
+        if (factors_.empty() && (p.coarser || together_.empty())) return;
+        const auto price = fine_prices(k);
+        if (p.coarser)
+            p.rest->price = way_prices(*p.surface, p.facets, starting_sides(*p.surface), price, *p.rest, p.origins);
+        else
+            std::copy(price.begin(), price.end(), p.rest->price.begin());
     }
 
     std::vector<search_setting> settings(idx triangles, double bound)
@@ -284,25 +280,16 @@ private:
     /// What a seam along each side of a piece counts.
     std::vector<double> fine_prices(std::size_t k) const
     {
-        const piece_search& p = *searches_[k];
-        std::vector<double> price(p.facets.twin.size());
-        for (std::size_t s = 0; s < price.size(); ++s)
-        {
-            const auto [a, b] = side_vertices(*p.surface, static_cast<idx>(s));
-            price[s] = glm::distance(p.surface->points()[u(a)], p.surface->points()[u(b)]);
-            if (!params_.factors.empty()) price[s] *= params_.factors[origin(k, s)];
-            if (!params_.together.empty() && params_.together[origin(k, s)]) price[s] *= unwanted;
-        }
-        return price;
+        return side_prices(*searches_[k]->surface, searches_[k]->facets, own(together_, k), own(factors_, k));
     }
-
-    static constexpr double unwanted = 1000; // where a seam is not to be, its length counts so often
 
     const mesh<triangle>& mesh_;
     const facet_table& facets_;
     cutting_params params_;
     budget& limits_;
-    chart_mesh pieces_;                                   // that given seams leave
+    surface_part pieces_;        // that given seams leave
+    std::vector<char> together_; // one per side of the pieces, or empty, like the next
+    std::vector<double> factors_;
     std::vector<std::unique_ptr<piece_search>> searches_; // one a piece
     std::thread::id owner_;
     std::atomic<bool> stopped_{false};

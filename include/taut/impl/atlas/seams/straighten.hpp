@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <taut/impl/atlas/seams/seam_arcs.hpp>
-#include <taut/impl/atlas/seams/seam_weights.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/disjoint_sets.hpp>
 

@@ -34,13 +34,12 @@ public:
         params.symmetric = false;
         const auto &given = params.charts.seams, &inner = params.charts.together;
         seams.assign(3 * part_.triangles.size(), 0);
-        together.assign(inner.empty() ? 0 : seams.size(), 0);
+        together = part_.by_side(inner);
         for (std::size_t i = 0; i < seams.size(); ++i)
         {
             const std::size_t s = part_.origin(i);
             const idx image = mirror_.side[s];
             seams[i] = parts(s) || (!given.empty() && (given[s] != 0 || (image >= 0 && given[u(image)] != 0)));
-            if (!together.empty()) together[i] = inner[s];
         }
         params.charts.seams = seams;
         params.charts.together = together;
@@ -96,10 +95,9 @@ private:
 
     surface_part part() const
     {
-        std::vector<idx> triangles, number(mesh_.points().size(), -1);
-        for (std::size_t c = 0; c < of_.size(); ++c)
-            if (of_[c] >= 0) triangles.push_back(static_cast<idx>(c));
-        return part_of(mesh_, triangles, std::vector<char>(facets_.twin.size(), 0), number);
+        std::vector<char> wanted;
+        for (const signed char side : of_) wanted.push_back(side >= 0);
+        return part_of(mesh_, wanted, std::vector<char>(facets_.twin.size(), 0));
     }
 
     const mesh<triangle>& mesh_;

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <taut/impl/atlas/cutting/mend_charts.hpp>
+#include <taut/impl/atlas/filled_square.hpp>
+#include <taut/impl/atlas/make_charts.hpp>
+#include <taut/impl/atlas/settled_charts.hpp>
+#include <taut/impl/atlas/stacked_charts.hpp>
+#include <taut/impl/exact/convex_polygons.hpp>
+#include <taut/impl/packing/outlines.hpp>
+#include <taut/impl/untangle/convex_corners.hpp>
+
+namespace taut::impl
+{
+
+/// Places of charts in the tiles.
+struct placed_charts
+{
+    std::vector<vec2> uv; ///< one per vertex of the charts, in the tiles
+    packing layout;
+    convex_polygons polygons;             ///< of the charts
+    std::vector<char> bad;                ///< one per chart: whether it is not valid as it is laid
+    std::vector<char> pinned;             ///< one per chart: whether it stays where it was; or empty
+    std::optional<stacked_charts> stacks; ///< refers to the charts
+    chart_outlines outlines; ///< of the charts as they were laid; the same in the tiles, unless triangles turned over
+};
+
+/// Values of the triangles of a surface, or none, for charts within each of which they are alike.
+template <class T>
+std::vector<T> by_chart(const chart_mesh& charts, const std::vector<T>& triangles)
+{
+    std::vector<T> values;
+    if (!triangles.empty())
+        for (std::size_t k = 0; k + 1 < charts.first_cell.size(); ++k)
+            values.push_back(triangles[static_cast<std::size_t>(charts.first_triangle(k))]);
+    return values;
+}
+
+/// The polygon of each triangle of the charts; empty: all are triangles.
+inline std::vector<idx> polygon_labels(const atlas_surface& of, const chart_mesh& charts)
+{
+    if (of.params.charts.together.empty()) return {};
+    const auto polygon = polygons_of(of.facets, of.params.charts.together);
+    std::vector<idx> label;
+    for (const idx c : charts.cell_origins) label.push_back(polygon[static_cast<std::size_t>(c)]);
+    return label;
+}
+
+/// The polygons of charts that are convex in space.
+inline convex_polygons convex(const atlas_surface& of, const chart_mesh& charts)
+{
+    return find_convex_polygons(charts.surface.cells(), polygon_labels(of, charts), charts.surface.points());
+}
+
+/// Makes polygons that are convex in space convex in the plane; at first with free borders, and with fixed ones in
+/// charts that overlap themselves then. Charts that are to stay are moved as little as possible.
+inline void make_convex(const atlas_run& run, const atlas_surface& of, chart_set& set, const convex_polygons& polygons)
+{
+    const chart_mesh& charts = set.charts;
+    if (of.params.keep_charts && !of.params.relax)
+    {
+        settle_charts(charts, polygons, set.uv, {});
+        return;
+    }
+    const auto label = polygon_labels(of, charts);
+    const auto before = set.uv;
+    fixed_marks<2> held(set.uv.size());
+    for (int round = 0; round < 2; ++round)
+    {
+        if (!convex_corners(charts.surface, label, polygons, held,
+                            [&run] { return run.report.complete && run.clock.in_time(); })
+                 .make_convex(set.uv))
+            return;
+        for (idx k = 0; k < charts.charts(); ++k)
+        {
+            const auto own = static_cast<std::size_t>(k);
+            const auto first = charts.first_vertex[own], end = charts.first_vertex[own + 1];
+            if (std::equal(set.uv.begin() + first, set.uv.begin() + end, before.begin() + first) ||
+                !overlaps_itself(charts, own, set.uv))
+                continue;
+            std::copy(before.begin() + first, before.begin() + end, set.uv.begin() + first);
+            for_each_border_side(charts, k,
+                                 [&](idx from, idx) { held[static_cast<std::size_t>(from)] = fixed_marks<2>::every; });
+        }
+    }
+}
+
+/// Cuts charts where the square is used much better then for the length of the cuts (filled_square.hpp).
+inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
+{
+    constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
+    constexpr idx few = 16;                               // charts
+    const auto& params = of.params;
+    const auto& packing = params.packing;
+    if (params.prefer != chart_preference::seams || params.keep_charts || params.symmetric || params.stack ||
+        !packing.walls.empty() || packing.on_grid() || packing.tiles > 1)
+        return;
+    if (!run.report.reason.empty() || !run.report.complete || set.charts.charts() > few) return;
+    double area = 0;
+    for (const double a : ideal_elements<triangle>(of.surface).measure) area += a;
+    const double longest = least_length * std::sqrt(area) + by_seams * length_of_seams(of.surface, of.facets, set.seam);
+    auto flat = laid(set);
+    auto quietly = packing;
+    const run_limits left = run.limits("pack");
+    quietly.limits = {left.time_limit, {}};
+    const auto prices = of.prices();
+    flat.seam = filled_square(of.surface, of.facets, flat.uv, prices, quietly)
+                    .run(set.seam, longest, [&left] { return left.observer({}); });
+    if (flat.seam != set.seam)
+    {
+        set = cut(of, std::move(flat));
+        measure(set);
+    }
+    run.report.seconds.pack += run.clock.lap();
+}
+
+/// Packs charts into the tiles, rounded as in the file.
+/// grown: how much larger the chart of each triangle of the surface is laid; empty if none is
+inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& set, const std::vector<double>& grown)
+{
+    placed_charts made;
+    atlas_report& report = run.report;
+    if (!report.reason.empty())
+    {
+        made.uv = set.uv;
+        return made;
+    }
+    const chart_mesh& charts = set.charts;
+    made.polygons = convex(of, charts); // there is room for it: nothing is beside a chart yet
+    if (made.polygons.size() > 0) make_convex(run, of, set, made.polygons);
+    auto params = of.params.packing;
+    params.limits = run.limits("pack");
+    params.densities = by_chart(charts, grown);
+    params.groups = by_chart(charts, of.params.groups);
+    auto& stacks = made.stacks;
+    if (of.params.stack)
+    {
+        stacks.emplace(charts, params.groups);
+        stacks->take_best(set.uv, set.energy);
+        stacks->share(set.uv);
+        report.stacked = charts.charts() - static_cast<idx>(stacks->leaders().size());
+    }
+    const vec2 origin = of.params.origin;
+    const idx rows = (params.tiles + 9) / 10;
+    const double step = spacing_at(
+        origin + vec2(std::min(params.tiles, 10), rows * std::max(params.aspect, 1.0)) - 0.25, of.params.stored);
+    params.rounding = std::max(params.rounding, 4 * step); // so far vertices may be moved
+    made.outlines = find_outlines(set.uv, charts.surface.cells(), charts.first_cell, charts.first_vertex);
+    if (stacks)
+    {
+        params.densities = stacks->of_leaders(params.densities);
+        params.groups = stacks->of_leaders(params.groups);
+    }
+    made.layout = pack_outlined(set.uv, stacks ? stacks->first_outlines(made.outlines) : made.outlines, params);
+    if (stacks) made.layout.places = stacks->of_all(made.layout.places);
+    report.complete = report.complete && made.layout.complete;
+    made.uv = made.layout.apply(set.uv, charts.first_vertex);
+    for (std::size_t k = 0; k < made.layout.places.size(); ++k) // rows of ten tiles
+    {
+        const idx row = made.layout.places[k].tile / 10;
+        for (idx v = charts.first_vertex[k]; v < charts.first_vertex[k + 1]; ++v)
+            made.uv[static_cast<std::size_t>(v)] += vec2(origin.x - 10 * row, (origin.y + row) * params.aspect);
+    }
+    made.bad = settle_charts(charts, made.polygons, made.uv, {.stored = of.params.stored, .reach = params.rounding});
+    if (stacks)
+    {
+        stacks->share(made.uv);
+        made.bad = stacks->of_all(stacks->of_leaders(made.bad));
+    }
+    report.seconds.pack += run.clock.lap();
+    return made;
+}
+
+/// By how much a chart is to be scaled up, as its triangles are not much larger than the units of the file's numbers;
+/// 1: they are.
+inline double growth(const placed_charts& placed, const chart_mesh& charts, std::size_t k, vec2 (*stored)(vec2))
+{
+    const auto first = placed.uv.data();
+    const auto [low, high] = box_about({first + charts.first_vertex[k], first + charts.first_vertex[k + 1]});
+    const double wanted = 256 * std::sqrt(static_cast<double>(charts.first_cell[k + 1] - charts.first_cell[k])) *
+                          spacing_at(high, stored);
+    const double size = glm::length(high - low);
+    return size >= wanted ? 1 : std::min(1e9, 2 * wanted / std::max(size, wanted * 1e-9));
+}
+
+/// Maps charts, one flag each, anew of which rounding makes the border meet itself, but flattens no triangle: those of
+/// plain shapes touch themselves. Clears their flags.
+inline void keep_touching_apart(atlas_run& run, chart_set& set, const placed_charts& placed, std::vector<char>& bad)
+{
+    std::vector<char> touching(bad.size());
+    for (std::size_t k = 0; k < bad.size(); ++k) touching[k] = bad[k] && turned_triangle(set.charts, k, placed.uv) < 0;
+    const auto before = touching;
+    keep_apart(run, set, touching);
+    for (std::size_t k = 0; k < bad.size(); ++k)
+        if (before[k]) bad[k] = touching[k];
+}
+
+/// Packs charts, and replaces those that rounding makes invalid and that cannot be corrected in place: by larger ones,
+/// if they are small for the digits of the file, else by smaller patches.
+inline placed_charts settled(atlas_run& run, const atlas_surface& of, chart_set& set)
+{
+    constexpr int most_rounds = 32; // places change for all charts, and so do the digits of those that were good
+    std::vector<double> grown;
+    placed_charts placed = place(run, of, set, grown);
+    for (int round = 0; round < most_rounds; ++round)
+    {
+        if (!run.report.reason.empty() || std::count(placed.bad.begin(), placed.bad.end(), char(1)) == 0) break;
+        auto bad = placed.bad;
+        for (std::size_t k = 0; k < bad.size(); ++k)
+        {
+            const double factor = bad[k] ? growth(placed, set.charts, k, of.params.stored) : 1;
+            if (factor == 1) continue;
+            bad[k] = 0;
+            grown.resize(of.surface.cells().size(), 1.0);
+            for (idx i = set.charts.first_cell[k]; i < set.charts.first_cell[k + 1]; ++i)
+                grown[static_cast<std::size_t>(set.charts.cell_origins[static_cast<std::size_t>(i)])] *= factor;
+        }
+        if (round == 0 && !of.params.keep_charts && run.report.complete) keep_touching_apart(run, set, placed, bad);
+        idx largest = 0; // of those that are left
+        for (std::size_t k = 0; k < bad.size(); ++k)
+            if (bad[k]) largest = std::max(largest, set.charts.first_cell[k + 1] - set.charts.first_cell[k]);
+        if (largest > 0)
+        {
+            take_apart(run, of, set, bad, std::clamp<std::size_t>(static_cast<std::size_t>(largest) / 4, 1, 1024));
+            join_polygons(run, of, set);
+        }
+        if (run.report.reason.empty()) placed = place(run, of, set, grown);
+    }
+    const auto densities = by_chart(set.charts, grown);
+    const auto count = std::count_if(densities.begin(), densities.end(), [](double x) { return x > 1; });
+    if (count > 0)
+        run.report.notes.push_back(std::to_string(count) + (count == 1 ? " chart is" : " charts are") +
+                                   " scaled up, as the numbers of the file are too coarse for " +
+                                   (count == 1 ? "it" : "them"));
+    return placed;
+}
+
+} // namespace taut::impl
