@@ -344,6 +344,22 @@ TEST_CASE("short cutting: seams lead back over the fine surface, given ones stay
     CHECK(again.seams() == seam);
 }
 
+TEST_CASE("short cutting: noise that coarser surfaces do not show makes a surface rough")
+{
+    const auto smooth = test::cubes({{0, 0, 0}}, 36), rough = test::noisy(smooth, 0.06);
+    for (const auto* m : {&smooth, &rough})
+    {
+        const auto f = facets(*m);
+        budget unlimited;
+        short_cutting cutting(*m, f, {.coarse = 300}, unlimited);
+        cutting.run();
+        CHECK(cutting.rough() == (m == &rough));
+        const auto before = cutting.seams();
+        cutting.adjust(-0.05, false);
+        if (cutting.rough()) CHECK(cutting.seams() == before); // those for what is large stay
+    }
+}
+
 TEST_CASE("strained cuts: a surface is flat when they lead to all of its vertices")
 {
     const rest_surface rest = rest_of(limbs(3));
