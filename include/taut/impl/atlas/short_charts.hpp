@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/atlas/cutting/fine_sewing.hpp>
 #include <taut/impl/atlas/cutting/keep_apart.hpp>
 #include <taut/impl/atlas/cutting/laid_cells.hpp>
+#include <taut/impl/atlas/cutting/sew_tips.hpp>
 #include <taut/impl/atlas/cutting/short_cutting.hpp>
 #include <taut/impl/atlas/flat_charts.hpp>
 #include <taut/impl/atlas/seams/straighten.hpp>

@@ -193,7 +193,7 @@ private:
     {
         std::optional<mesh<triangle>> surface; // fine
         facet_table facets;
-        std::vector<idx> origins; // of coarse vertices
+        std::vector<idx> origins;            // of coarse vertices
         bool coarser = false, noisy = false; // noisy: in small patches already, which coarser ones do not show
         std::optional<rest_surface> rest;
         std::unique_ptr<seam_search> search;
