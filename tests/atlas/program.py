@@ -216,6 +216,19 @@ def parts_holes_and_padding():
     assert s["worst_distortion"] <= 4.01 and s["charts"] > fewer and s["tiles"] == 2
     judge("out.obj", *both, tiles=2)
 
+    # A corner is not cut off one of several bowls for what that happens to gain.
+    n = 20
+    bowl = [[x, y, 0.7 * ((2 * x / n - 1) ** 2 + (2 * y / n - 1) ** 2) * n] for y in range(n + 1) for x in range(n + 1)]
+    halves = [[a, b, c] for y in range(n) for x in range(n) for a in [y * (n + 1) + x]
+              for b, c in ((a + 1, a + n + 2), (a + n + 2, a + n + 1))]
+    for count in (1, 2, 3):
+        points = [[x + 2 * n * k, y, z] for k in range(count) for x, y, z in bowl]
+        faces = [[v + k * len(bowl) for v in f] for k in range(count) for f in halves]
+        write("bowls.obj", points, faces)
+        run("atlas", "bowls.obj", "-o", "out.obj", "--stats", "s.json")
+        assert stats("s.json")["charts"] == count, (count, stats("s.json")["charts"])
+        judge("out.obj", points, faces)
+
 
 def repairs():
     points, faces = ball(6)

@@ -12,6 +12,7 @@
 
 #include <doctest/doctest.h>
 
+#include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 #include <taut/impl/atlas/chart_start.hpp>
@@ -313,6 +314,21 @@ TEST_CASE("flatten_charts: large charts go to multigrid, with the same energies"
     }
     CHECK(large.charts[2].outcome == chart_outcome::no_map);
     CHECK(large.charts[2].reason != "");
+}
+
+TEST_CASE("flatten_charts: large charts of rough surfaces come near their minima, though the first steps are short")
+{
+    queue q;
+    const surfaces parts = {test::noisy(spiral(240, 4, 4), 0.05, 1), test::noisy(spiral(120, 10, 2), 0.05, 2)};
+    const auto charts = charts_of(parts);
+    const auto dense = flatten_charts(q, charts),
+               large = flatten_charts(q, charts, {.tuning = {.largest = 0, .rough = true}});
+    for (std::size_t k = 0; k < parts.size(); ++k)
+    {
+        CHECK(large.charts[k].multigrid);
+        CHECK(large.charts[k].valid);
+        CHECK(large.charts[k].energy - 4 < 1.12 * (dense.charts[k].energy - 4));
+    }
 }
 
 TEST_CASE("flatten_charts: parameters are looked at")

@@ -193,7 +193,7 @@ TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
     const auto found = find_overlaps(rest, flat);
     REQUIRE(found.size() == 1);
     CHECK(found[0].area == doctest::Approx(rest.total / 3).epsilon(0.05));
-    const auto cut = minimum_cut(rest, flat.seam, found[0].below, found[0].above);
+    const auto cut = minimum_cutting(rest).run(flat.seam, found[0].below, found[0].above);
     double length = 0;
     for (const idx s : cut) length += rest.length[at(s)];
     CHECK(length == doctest::Approx(1).epsilon(0.02)); // the width
@@ -261,11 +261,12 @@ TEST_CASE("minimum cuts: as short as those by single augmenting paths")
         return r;
     }();
     const std::vector<char> none(rest.price.size(), 0);
+    minimum_cutting between(rest); // what one leaves does not show in the next
     for (idx k = 0; k < 20; ++k)
     {
         const std::vector<idx> from{3 * k, 3 * k + 1}, to{rest.triangles() - 1 - k, rest.triangles() - 30 - k};
         double cut = 0;
-        for (const idx s : minimum_cut(rest, none, from, to)) cut += rest.price[at(s)];
+        for (const idx s : between.run(none, from, to)) cut += rest.price[at(s)];
         // The largest flow, by depth first.
         std::vector<double> left = rest.price;
         double flow = 0;
@@ -342,6 +343,22 @@ TEST_CASE("short cutting: seams lead back over the fine surface, given ones stay
     short_cutting again(m, f, {.seams = given, .together = together, .coarse = 1000}, unlimited);
     again.run();
     CHECK(again.seams() == seam);
+}
+
+TEST_CASE("short cutting: noise that coarser surfaces do not show makes a surface rough")
+{
+    const auto smooth = test::cubes({{0, 0, 0}}, 36), rough = test::noisy(smooth, 0.06);
+    for (const auto* m : {&smooth, &rough})
+    {
+        const auto f = facets(*m);
+        budget unlimited;
+        short_cutting cutting(*m, f, {.coarse = 300}, unlimited);
+        cutting.run();
+        CHECK(cutting.rough() == (m == &rough));
+        const auto before = cutting.seams();
+        cutting.adjust(-0.05, false);
+        if (cutting.rough()) CHECK(cutting.seams() == before); // those for what is large stay
+    }
 }
 
 TEST_CASE("strained cuts: a surface is flat when they lead to all of its vertices")

@@ -45,9 +45,9 @@ public:
     /// seam: one flag a side; longest: what all cuts together may count. Returns the seams with those of the cuts.
     std::vector<char> run(std::vector<char> seam, double longest, const std::function<bool()>& proceed)
     {
-        constexpr double enough = 0.6, worth = 0.1; // use of the square; its gain by length by the root of the area
+        constexpr double enough = 0.6, worth = 0.1; // use of the square; its gain by cost by the root of the area
         constexpr int most = 8;                     // cuts
-        const double root = std::sqrt(area_);
+        const double least = worth / std::sqrt(area_);
         std::vector<char> best = seam;
         std::vector<idx> all(mesh_.cells().size());
         std::iota(all.begin(), all.end(), idx(0));
@@ -55,7 +55,8 @@ public:
         std::vector<char> first = seam;
         const double at_first = use_of(charts, packing_effort::full);
         if (!(at_first < enough)) return first;
-        double best_use = use_of(charts, packing_effort::estimate), use = best_use, spent = 0, best_spent = 0;
+        double best_use = use_of(charts, packing_effort::estimate), use = best_use, spent = 0;
+        double cost = 0, best_cost = 0;
         for (int k = 0; k < most && use < enough && proceed(); ++k)
         {
             auto next = next_cut(charts, seam, longest - spent);
@@ -63,15 +64,16 @@ public:
             cut(seam, next.cut.sides);
             charts = std::move(next.charts);
             spent += next.cut.price;
+            cost += cost_of(next.cut);
             use = use_of(charts, packing_effort::estimate);
-            if (!(use - best_use > worth * (spent - best_spent) / root)) continue;
+            if (!(use - best_use > least * (cost - best_cost))) continue;
             best = seam;
             best_use = use;
-            best_spent = spent;
+            best_cost = cost;
         }
-        if (best_spent == 0) return first;
+        if (best_cost == 0) return first;
         const double gain = use_of(best, packing_effort::full) - at_first;
-        return gain > worth * best_spent / root ? best : first;
+        return gain > least * best_cost ? best : first;
     }
 
     /// How much of the square charts use, about.
@@ -85,7 +87,7 @@ public:
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
-    using candidate = std::pair<double, waist_cutting::cut>; // room that is freed, by what the cut counts
+    using candidate = std::pair<double, waist_cutting::cut>; // room that is freed, by what the cut costs
 
     /// A chart as the packer sees it.
     struct laid_chart
@@ -101,6 +103,13 @@ private:
         waist_cutting::cut cut;
         std::vector<laid_chart> charts; // then
     };
+
+    /// Its length, as it counts, and what one more chart does: a corner that is cut off gains as much as it happens to.
+    double cost_of(const waist_cutting::cut& one) const
+    {
+        constexpr double chart = 0.3; // by the root of the area
+        return one.price + chart * std::sqrt(area_);
+    }
 
     void cut(std::vector<char>& seam, std::span<const std::size_t> sides) const
     {
@@ -181,13 +190,13 @@ private:
             cut(with, one.sides);
             double freed = chart.room;
             for (const laid_chart& part : charts_of(chart.triangles, with)) freed -= part.room;
-            if (freed > 0) found.emplace_back(freed / one.price, std::move(one));
+            if (freed > 0) found.emplace_back(freed / cost_of(one), std::move(one));
         }
         std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
         return found;
     }
 
-    /// The cut with the largest gain of use by length of a few that free most room; where none has any, the first of
+    /// The cut with the largest gain of use by cost of a few that free most room; where none has any, the first of
     /// these. longest: what it may count
     made_cut next_cut(std::vector<laid_chart>& charts, const std::vector<char>& seam, double longest)
     {
@@ -220,7 +229,7 @@ private:
             auto parts = charts_of(charts[k].triangles, with);
             then.erase(then.begin() + static_cast<std::ptrdiff_t>(k));
             std::move(parts.begin(), parts.end(), std::back_inserter(then));
-            const double gain = std::max(0.0, use_of(then, packing_effort::draft) - use) / one->second.price;
+            const double gain = std::max(0.0, use_of(then, packing_effort::draft) - use) / cost_of(one->second);
             if (!(gain > most)) continue;
             most = gain;
             best = {one->second, std::move(then)};

@@ -83,7 +83,7 @@ private:
             if (begin.empty() || end.empty()) continue;
             cut one;
             std::vector<char> seam(rest_.price.size(), 0);
-            for (const idx s : minimum_cut(rest_, seam, begin, end))
+            for (const idx s : minimum_cutting(rest_).run(seam, begin, end))
             {
                 seam[u(s)] = seam[u(rest_.twin(s))] = 1;
                 one.sides.push_back(part_.origin(u(s)));

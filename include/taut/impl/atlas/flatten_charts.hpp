@@ -16,11 +16,11 @@
 namespace taut::impl
 {
 
-/// Stopping criteria of maps of a rough surface: a step gains less than a hundredth of what the map has above an
-/// isometry.
+/// Stopping criteria of maps of a rough surface: two steps gain less than a hundredth each of what the map has above an
+/// isometry. One alone may be short, the first one above all.
 inline solve::impl::stopping_params rough_stopping()
 {
-    return {.decrease_tolerance = 1e-2, .tuning = {.decrease_count = 1}};
+    return {.decrease_tolerance = 1e-2, .tuning = {.decrease_count = 2}};
 }
 
 /// Precision of maps of a rough surface: its needles are more than single precision holds.
@@ -37,7 +37,7 @@ struct flatten_tuning
     double largest = 30;
 
     /// True for charts of a rough surface, on which coarser levels say little about finer ones: large charts begin with
-    /// a barycentric map, and end where a step gains less than a hundredth of what they have above an isometry.
+    /// a barycentric map, and end as by rough_stopping().
     bool rough = false;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -14,38 +13,46 @@ namespace taut::impl
 {
 
 /// The sides of least price that part two disjoint sets of triangles of a chart, with the fewest triangles on the side
-/// of `from`: blocking flows in the dual graph (Dinic 1970). Each edge by its side on the side of `from`. Empty where
-/// seams part them already.
+/// of `from`: blocking flows in the dual graph (Dinic 1970). It can be used again for other sets, at the cost of what
+/// flows there.
 class minimum_cutting
 {
 public:
-    minimum_cutting(const rest_surface& rest, std::span<const char> seam, std::span<const idx> from,
-                    std::span<const idx> to)
+    /// Refers to the surface.
+    explicit minimum_cutting(const rest_surface& rest)
         : rest_(rest),
-          seam_(seam),
-          from_(from),
           least_(1e-12 * std::sqrt(rest.total)),
           flow_(rest.price.size(), 0),
           target_(rest.surface.cells().size(), 0),
-          level_(target_.size()),
-          tried_(target_.size())
+          level_(target_.size(), none),
+          tried_(target_.size(), 0)
     {
-        for (const idx c : to) target_[u(c)] = 1;
-        for (const idx c : from) level_[u(c)] = 1;
-        for (const idx c : from) // those with neighbours that are not among them
-            for (idx s = 3 * c; s < 3 * c + 3; ++s)
-                if (rest.twin(s) >= 0 && level_[u(rest.twin(s) / 3)] == 0 && (start_.empty() || start_.back() != c))
-                    start_.push_back(c);
     }
 
-    std::vector<idx> run()
+    /// Each edge of the cut by its side on the side of `from`. Empty where seams part them already.
+    std::vector<idx> run(std::span<const char> seam, std::span<const idx> from, std::span<const idx> to)
     {
+        seam_ = seam;
+        from_ = from;
+        start_.clear();
+        for (const idx c : to) target_[u(c)] = 1;
+        for (const idx c : from) level_[u(c)] = 0;
+        for (const idx c : from) // those with neighbours that are not among them
+            for (idx s = 3 * c; s < 3 * c + 3; ++s)
+                if (rest_.twin(s) >= 0 && level_[u(rest_.twin(s) / 3)] == none &&
+                    (start_.empty() || start_.back() != c))
+                    start_.push_back(c);
         while (reach())
             for (const idx c : start_) block_from(c);
         std::vector<idx> cut;
         for (const idx c : queue_)
             for (idx s = 3 * c; s < 3 * c + 3; ++s)
                 if (rest_.twin(s) >= 0 && !seam_[u(s)] && level_[u(rest_.twin(s) / 3)] == none) cut.push_back(s);
+        forget();
+        for (const idx c : from) level_[u(c)] = none;
+        for (const idx c : to) target_[u(c)] = 0;
+        for (const idx s : full_) flow_[u(s)] = flow_[u(rest_.twin(s))] = 0;
+        full_.clear();
         return cut;
     }
 
@@ -59,8 +66,7 @@ private:
     /// reached.
     bool reach()
     {
-        std::fill(level_.begin(), level_.end(), none);
-        std::fill(tried_.begin(), tried_.end(), static_cast<unsigned char>(0));
+        forget();
         queue_ = start_;
         for (const idx c : from_) level_[u(c)] = 0;
         idx last = std::numeric_limits<idx>::max();
@@ -75,6 +81,17 @@ private:
                 if (target_[u(c)]) last = level_[u(c)];
             }
         return last < std::numeric_limits<idx>::max();
+    }
+
+    /// Undoes what reach() has found.
+    void forget()
+    {
+        for (const idx c : queue_)
+        {
+            level_[u(c)] = none;
+            tried_[u(c)] = 0;
+        }
+        queue_.clear();
     }
 
     /// Fills ways from a triangle to targets, each one level further at every edge, until there is none left.
@@ -116,6 +133,7 @@ private:
         {
             flow_[u(s)] += most;
             flow_[u(rest_.twin(s))] -= most;
+            full_.push_back(s);
         }
         const idx c = way_[full] / 3;
         way_.resize(full);
@@ -131,12 +149,7 @@ private:
     std::vector<idx> level_;           // edges from the start, one a triangle
     std::vector<unsigned char> tried_; // sides that lead no further, one a triangle
     std::vector<idx> start_, queue_, way_;
+    std::vector<idx> full_; // sides that anything has flowed through
 };
-
-inline std::vector<idx> minimum_cut(const rest_surface& rest, std::span<const char> seam, std::span<const idx> from,
-                                    std::span<const idx> to)
-{
-    return minimum_cutting(rest, seam, from, to).run();
-}
 
 } // namespace taut::impl

@@ -30,6 +30,7 @@ struct parting
 inline int part_charts(const rest_surface& rest, flat_surface& flat, const parting& how)
 {
     const auto u = rest_surface::u;
+    minimum_cutting between(rest);
     std::vector<std::pair<idx, idx>> left_alone; // layers, by a triangle of each
     int made = 0;
     while (made < how.most)
@@ -47,7 +48,7 @@ inline int part_charts(const rest_surface& rest, flat_surface& flat, const parti
                                                       (has(one.below, p.second) && has(one.above, p.first));
                                            });
             if (known) continue;
-            const auto cut = minimum_cut(rest, flat.seam, one.below, one.above);
+            const auto cut = between.run(flat.seam, one.below, one.above);
             double length = 0;
             for (const idx s : cut) length += rest.price[u(s)];
             if (cut.empty()) continue; // parted by another cut
@@ -76,6 +77,7 @@ inline bool part_laid(const mesh<triangle>& m, const laid_seams& laid, std::span
     constexpr int rounds = 8, most = 400; // cuts
     laid_part own = laid_part::of(m, laid, {}, {});
     for (std::size_t s = 0; s < own.rest.price.size(); ++s) own.rest.price[s] = price[own.part.origin(s)];
+    minimum_cutting between(own.rest);
     int made = 0;
     for (int round = 0, before = -1; round < rounds && made < most && made != before; ++round)
     {
@@ -83,7 +85,7 @@ inline bool part_laid(const mesh<triangle>& m, const laid_seams& laid, std::span
         for (const overlap_layers& one : find_overlaps(own.rest, own.flat))
         {
             if (one.below.empty() || one.above.empty()) continue;
-            const auto cut = minimum_cut(own.rest, own.flat.seam, one.below, one.above); // empty: parted by another one
+            const auto cut = between.run(own.flat.seam, one.below, one.above); // empty: parted by another one
             for (const idx s : cut) set_seam(own.rest, own.flat.seam, s, 1);
             made += !cut.empty();
             if (made == most) break;

@@ -11,9 +11,9 @@
 #include <taut/impl/atlas/cut_to_disk.hpp>
 #include <taut/impl/atlas/cutting/over_cut.hpp>
 #include <taut/impl/atlas/cutting/part_charts.hpp>
+#include <taut/impl/atlas/cutting/patch_energy.hpp>
 #include <taut/impl/atlas/cutting/sew_tips.hpp>
 #include <taut/impl/atlas/seams/straighten.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
 
 namespace taut::impl
 {
@@ -128,7 +128,7 @@ private:
             const int added = more.run(flat_.seam, stop, most, longest);
             if (turn > 0 && added == 0) continue;
             number_fans(rest_, flat_);
-            if (flat_.uv.empty() && !start()) return false;
+            if (flat_.uv.empty() && !start_flat(rest_, flat_)) return false;
             relax(rest_, flat_, 60, 1e-4);
             if (flat_.energy <= enough) break;
         }
@@ -146,26 +146,6 @@ private:
             setting_.bound = 4 + (flat_.energy - 4) / setting_.over;
         }
         return flat_.energy < infinite;
-    }
-
-    bool start()
-    {
-        const cut_surface cut = cut_surface::of(rest_, flat_);
-        const mesh<triangle> m(cut.points, cut.cells);
-        try
-        {
-            const auto f = facets(m);
-            const auto map = barycentric_map(m, f, {.stretch_rounds = 1});
-            if (!map.flips) return false;
-            flat_.uv.resize(flat_.fan.size());
-            for (std::size_t corner = 0; corner < flat_.fan.size(); ++corner)
-                flat_.uv[corner] = map.uv[rest_surface::u(cut.cells[corner / 3][corner % 3])];
-        }
-        catch (const error&)
-        {
-            return false;
-        }
-        return true;
     }
 
     void sew(bool keep_apart)

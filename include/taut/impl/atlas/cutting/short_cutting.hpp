@@ -15,6 +15,7 @@
 
 #include <taut/impl/atlas/cutting/coarse_surface.hpp>
 #include <taut/impl/atlas/cutting/lift_seams.hpp>
+#include <taut/impl/atlas/cutting/patch_energy.hpp>
 #include <taut/impl/atlas/cutting/seam_search.hpp>
 #include <taut/impl/atlas/cutting/way_prices.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
@@ -100,7 +101,7 @@ public:
         for_each(searches_.size(),
                  [&](std::size_t k)
                  {
-                     if (!searches_[k] || !searches_[k]->search || searches_[k]->search->rough()) return;
+                     if (!searches_[k] || !searches_[k]->search || searches_[k]->rough()) return;
                      piece_search& p = *searches_[k];
                      // Of few triangles a cut changes much, and may have left more than is needed.
                      if (more < 0) p.bound = std::min(p.bound, p.search->result().energy);
@@ -119,7 +120,7 @@ public:
     {
         double sum = 0;
         for (const auto& p : searches_)
-            if (p && p->search && p->search->rough()) sum += p->rest->total;
+            if (p && p->search && p->rough()) sum += p->rest->total;
         return sum > 0.5 * area();
     }
 
@@ -194,11 +195,13 @@ private:
     {
         std::optional<mesh<triangle>> surface; // fine
         facet_table facets;
-        std::vector<idx> origins; // of coarse vertices
-        bool coarser = false;
+        std::vector<idx> origins;            // of coarse vertices
+        bool coarser = false, noisy = false; // noisy: in small patches already, which coarser ones do not show
         std::optional<rest_surface> rest;
         std::unique_ptr<seam_search> search;
         double bound = 4, price = 0;
+
+        bool rough() const { return noisy || search->rough(); }
     };
 
     std::size_t first(std::size_t k) const { return u(pieces_.charts.first_cell[k]); }
@@ -245,6 +248,9 @@ private:
             make_coarse(*p.surface, p.facets,
                         p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count());
         p.coarser = coarse.cells.size() < p.surface->cells().size();
+        // Patches of so many triangles have borders that are longer than seams are searched for.
+        constexpr idx patch = 100;
+        p.noisy = p.coarser && patch_energy(*p.surface, p.facets, patch) > params_.bound;
         // Seams become shorter on the surface itself, and distortion more.
         p.bound = params_.bound - (p.coarser ? 0.02 : 0.001) * (params_.bound - 4);
         p.origins = std::move(coarse.origins);
