@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """partitioned.py CASE TAUT_MPI TAUT MPIEXEC FOLDER: taut-mpi on meshes in pieces, of other cells, and of the plane."""
+import base64
 import filecmp
 import os
 import shutil
+import struct
 
 import program
 from piece_files import foam, foam_case, foam_zones, mixed_bar, points_of_foam, points_of_vtu, pvtu, vtu
@@ -84,6 +86,58 @@ def case_pieces():
     os.remove("in3/piece_2.vtu")
     fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "x.pvtu", code=3, word="piece_2.vtu")
     assert not os.path.exists("x")
+
+
+def case_pieces_of_others():
+    """Nothing is read through a .pvtu from outside of its folder, and no file of somebody else is replaced or removed."""
+    b = bar(2)
+    pvtu("in.pvtu", b.points, b.cells, 3)
+    with open("in.pvtu") as f:
+        index = f.read()
+    os.mkdir("sub")
+    for name, folder in (("sub/up.pvtu", "../in/"), ("abs.pvtu", os.path.abspath("in") + "/")):
+        with open(name, "w") as f:
+            f.write(index.replace("in/", folder))
+        fails("deform", name, "--fix", "region:0", "-o", "x.pvtu", code=3, word="outside of its folder")
+    # A folder that no .pvtu of the name has named is another one's.
+    os.mkdir("out")
+    with open("out/piece_1.vtu", "w") as f:
+        f.write("mine")
+    task = ("deform", "in.pvtu", "--fix", "region:0", "--checkpoint", "so-far.pvtu", "-o")
+    fails(*task, "out.pvtu", code=2, word="out/piece_1.vtu")
+    with open("out/piece_1.vtu") as f:
+        assert f.read() == "mine"
+    # Files of one name in several folders, and names with characters of XML's own.
+    shutil.copytree("in", "R&D")
+    os.makedirs("R&D/a")
+    os.rename("R&D/piece_1.vtu", "R&D/a/piece_0.vtu")
+    os.rename("R&D/piece_2.vtu", "R&D/a/1-piece_0.vtu")
+    with open("in.pvtu", "w") as f:
+        f.write(index.replace("in/", "R&amp;D/").replace("piece_1", "a/piece_0").replace("piece_2", "a/1-piece_0"))
+    os.makedirs("so-far.taut-0")
+    with open("so-far.taut-0/notes.txt", "w") as f:
+        f.write("mine")
+    run(*task, "B&O.pvtu")
+    assert len(os.listdir("B&O")) == 3 and os.listdir("so-far.taut-0") == ["notes.txt"], os.listdir("B&O")
+    with open("B&O.pvtu") as f:
+        assert f.read().count('Source="B&amp;O/') == 3
+    assert stats_of_check("B&O.pvtu")["elements"] == len(b.cells)
+    run(*task, "B&O.pvtu")  # it replaces its own
+    # A pin that single precision cannot hold.
+    points = base64.b64encode(struct.pack("<I12f", 48, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)).decode()
+    arrays = "".join(f'<DataArray type="Int32" Name="{name}" format="ascii">{values}</DataArray>' for name, values in
+                     (("connectivity", "0 1 2 3"), ("offsets", "4"), ("types", "10")))
+    with open("single.vtu", "w") as f:
+        f.write('<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian"><UnstructuredGrid><Piece '
+                'NumberOfPoints="4" NumberOfCells="1"><Points><DataArray type="Float32" NumberOfComponents="3" '
+                f'format="binary">{points}</DataArray></Points><Cells>{arrays}</Cells></Piece></UnstructuredGrid>'
+                "</VTKFile>")
+    with open("single.pvtu", "w") as f:
+        f.write('<VTKFile type="PUnstructuredGrid"><PUnstructuredGrid><Piece Source="single.vtu"/></PUnstructuredGrid>'
+                "</VTKFile>")
+    with open("far.csv", "w") as f:
+        f.write("0,1e39,0,0\n")
+    fails("deform", "single.pvtu", "--pins", "far.csv", "-o", "x.pvtu", code=4, word="single precision of the file")
 
 
 def case_pieces_checkpoint():

@@ -318,6 +318,14 @@ def case_checkpoint():
     run("deform", "few.node", "--pins", "few.csv", "-o", "few-out.node", "--checkpoint", "few-so-far.node")
     assert sorted(n for n in os.listdir(".") if n.startswith("few")) == ["few-out.ele", "few-out.node", "few.csv",
                                                                          "few.ele", "few.node"], os.listdir(".")
+    # Files beside a checkpoint that are no part of it are not touched, and a name that says no format is refused.
+    for name in ("mine.ele", "mine.face"):
+        with open(name, "w") as f:
+            f.write("mine\n")
+        fails("deform", "few.node", "--pins", "few.csv", "-o", "x.node", "--checkpoint", "mine.node", code=2, word=name)
+        os.remove(name)
+    for name in ("so-far", "so-far.txt", "so-far.mesh", "-"):
+        fails("deform", "bar.su2", "--pins", "pins.csv", "-o", "x.su2", "--checkpoint", name, code=2, word="--checkpoint")
     # Options that PETSc has no use for are named.
     _, err = run("deform", "bar.su2", "--pins", "pins.csv", "-o", "o.su2", "--petsc", "-nonsense 3 -pc_type gamg")
     assert "-nonsense" in err and "-pc_type" not in err, err

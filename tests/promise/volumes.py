@@ -268,6 +268,11 @@ def pins_in_single_precision(taut):
     for command in ("deform", "untangle"):
         error = taut(command, "cube.vtk", "-o", "far.vtk", "--pins", "far.csv", code=4).stderr
         assert "the pin of vertex 0: 1e+39 is beyond the single precision" in error, error
+    # Pins that rounding makes one: both commands say why there is no mesh.
+    taut.write("near.csv", pins_of({0: (0.1, 0.1, 0.1), 1: (0.1 + 1e-12, 0.1, 0.1)}))
+    for command in ("deform", "untangle"):
+        error = taut(command, "cube.vtk", "-o", "near.vtk", "--pins", "near.csv", code=7).stderr
+        assert "2 pins (0, 1) are rounded to the single precision of the file" in error, error
     # A text holds all digits.
     taut.write("text.vtk", cube.vtk("float", False))
     assert taut.stats("deform", "text.vtk", "-o", "out.vtk", "--pins", "pins.csv")["pin_rounding"] == 0

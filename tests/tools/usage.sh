@@ -23,6 +23,10 @@ test_usage()
     error_says 'IN is required'
     expect 2 unwrap in.obj -o out.obj --colour red
     error_says '--colour'
+    for option in -o '-o out.obj --pins' '-o out.obj --stats'; do # as of a variable that is not set
+        expect 2 unwrap in.obj $option ''
+        error_says 'the name is empty; name a file'
+    done
     expect 2 unwrap in.obj -o out.obj --energy warm
     error_says '--energy' 'warm' 'isometric'
     expect 2 unwrap in.obj -o out.obj --iterations many

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/mpi_options.hpp"
 
+#include <filesystem>
+#include <system_error>
+
+#include <taut/impl/io/volume/formats.hpp>
 #include <taut/impl/io/volume_file.hpp>
 
 #include "shared/choices.hpp"
 #include "shared/command_line.hpp"
+#include "shared/failure.hpp"
 #include "shared/shared_options.hpp"
 #include "shared/text_table.hpp"
 
@@ -32,7 +37,7 @@ void declare_solver(CLI::App& app, mpi_options& o)
 
 void declare_checkpoint(CLI::App& app, mpi_options& o)
 {
-    add_output(app, "--checkpoint", o.checkpoint, {.may_fail = false, .may_be_folder = true},
+    add_output(app, "--checkpoint", o.checkpoint, {.made_of = "MESH", .may_be_folder = true},
                "Write the shape so far to this mesh, a folder for a case of OpenFOAM, from time to time; where it is "
                "there already, begin with it. Removed once the result is written")
         ->type_name("FILE");
@@ -67,6 +72,18 @@ void say(CLI::App& app, const std::string& mesh)
 }
 
 } // namespace
+
+void require_names(const mpi_options& o, const io::volume_file& input)
+{
+    require_name(o.shape.output, input);
+    if (o.checkpoint.empty()) return;
+    require_name(o.checkpoint, input, "--checkpoint");
+    std::error_code unknown;
+    const bool known = io::impl::volume_format_of_name(o.checkpoint) != io::volume_format::automatic;
+    if (!known && !std::filesystem::is_directory(o.checkpoint, unknown)) // of which more is said when it is read
+        throw usage_error("--checkpoint " + o.checkpoint + ": is read again by its name; give it the extension of " +
+                          input.format + " files");
+}
 
 std::string count_kinds(const std::array<std::int64_t, 8>& kinds)
 {

@@ -10,6 +10,7 @@
 #include <taut/impl/dist/solver_params.hpp>
 
 #include "volume/shape_options.hpp"
+#include "volume/volume_case.hpp"
 
 namespace taut::tools::mpi
 {
@@ -23,7 +24,10 @@ struct mpi_options
     double checkpoint_interval = 600; ///< seconds
 };
 
-/// Declare the options of either command, without those that are of one process.
+/// Throws usage_error where -o or --checkpoint is named as a file of another format than that of the input, or would
+/// overwrite it, or the checkpoint has a name by which no format is known.
+void require_names(const mpi_options& o, const io::volume_file& input);
+
 /// What the input may be, for --help.
 inline constexpr const char* meshes =
     "Volume or planar mesh: .mesh .msh .vtk .vtu .node .su2; in pieces: .pvtu, or the folder of an OpenFOAM case";
@@ -31,6 +35,7 @@ inline constexpr const char* meshes =
 /// "32 tetrahedra, 3 wedges": numbers of cells by cell_kind.
 std::string count_kinds(const std::array<std::int64_t, 8>& kinds);
 
+/// Declare the options of either command, without those that are of one process.
 void declare_deform(CLI::App& app, mpi_options& options);
 void declare_smooth(CLI::App& app, mpi_options& options);
 

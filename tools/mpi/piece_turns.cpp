@@ -28,6 +28,20 @@ void remove_files(const std::vector<fs::path>& files)
     for (const auto& file : files) fs::remove(file.parent_path(), kept);
 }
 
+/// Removes what a run that was killed may have left of a .pvtu and its pieces.
+void remove_turn(const fs::path& pvtu)
+{
+    std::error_code kept;
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(folder_of(pvtu), kept))
+        if (const auto name = entry.path().filename().string();
+            name.starts_with(".taut-") || io::impl::small_extension(name) == ".vtu")
+            files.push_back(entry.path());
+    remove_files(files);
+    fs::remove(pvtu, kept);
+    fs::remove(folder_of(pvtu), kept);
+}
+
 } // namespace
 
 fs::path piece_turns::turn(int k) const
@@ -50,7 +64,9 @@ fs::path piece_turns::next() const
     const auto first = turn(0);
     const bool taken =
         std::any_of(now.begin(), now.end(), [&](const auto& file) { return file.parent_path() == folder_of(first); });
-    return taken ? turn(1) : first;
+    const auto free = taken ? turn(1) : first;
+    remove_turn(free);
+    return free;
 }
 
 void piece_turns::replace(const fs::path& made) const
@@ -68,11 +84,7 @@ void piece_turns::remove() const
     std::error_code kept;
     fs::remove(path_, kept);
     remove_files(last);
-    for (int k = 0; k < 2; ++k)
-    {
-        fs::remove(turn(k), kept);
-        fs::remove_all(folder_of(turn(k)), kept);
-    }
+    for (int k = 0; k < 2; ++k) remove_turn(turn(k));
 }
 
 } // namespace taut::tools::mpi

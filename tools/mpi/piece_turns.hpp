@@ -17,7 +17,7 @@ class piece_turns
 public:
     explicit piece_turns(std::filesystem::path pvtu) : path_(std::move(pvtu)) {}
 
-    /// The .pvtu to write next, to a name of its own.
+    /// The .pvtu to write next, to a name of its own; what a run that was killed has left of it is removed.
     std::filesystem::path next() const;
 
     /// Gives that file the name; the pieces that had been named before are removed. Throws io_error.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <utility>
@@ -57,7 +58,7 @@ void require_place(const ranged_volume& volume, const mpi_options& o)
     check(shape);
     if (!volume.partitioned)
     {
-        require_name(shape.output, head_of(volume, shape.input));
+        require_names(o, head_of(volume, shape.input));
         if (io::impl::is_stream(shape.output)) throw usage_error("-o: name a file");
         return;
     }
@@ -194,6 +195,7 @@ private:
     {
         dist::constraints<tetrahedron> held;
         std::int64_t rounded = 0;
+        bool beyond = false;
         for (const auto& e : pins.entries())
         {
             if (e.weight != 0)
@@ -204,10 +206,19 @@ private:
             for (int k = 0; k < 3; ++k)
                 if ((e.held >> k & 1U) != 0)
                 {
-                    held.pin(e.id, k, impl::in_single(e.x[k]));
-                    rounded += impl::in_single(e.x[k]) != e.x[k];
+                    const double there = impl::in_single(e.x[k]);
+                    beyond = beyond || (std::isfinite(e.x[k]) && !std::isfinite(there));
+                    held.pin(e.id, k, there);
+                    rounded += there != e.x[k];
                 }
         }
+        all_.together(
+            [&]
+            {
+                if (beyond)
+                    throw unsuitable_input("a pin is beyond the single precision of the file; save the input in "
+                                           "double precision");
+            });
         pins = std::move(held);
         if (all_.sum(rounded) > 0)
             notes.push_back("pins are rounded to the single precision of the file, and fixed there");
@@ -253,7 +264,7 @@ std::unique_ptr<shape_source<tetrahedron>> ranged_source(const dist::impl::commu
             [&]
             {
                 if (all.rank() == 0) require_place(*volume, o);
-                volume->require_output(shape.output);
+                writing([&] { volume->require_output(shape.output); });
             });
         report.format = volume->format;
         report.cells = count_kinds(volume->kinds);

@@ -42,7 +42,7 @@ public:
                 if (all_.rank() != 0) return;
                 input_.emplace(file_);
                 this->mixed = input_->parts().overlapping;
-                require_name(shape_.output, file_);
+                require_names(o, file_);
                 read_targets(report);
                 if (!file_.rest.empty() && !shape_.smoothing) begin_with = input_->points();
                 report.format = file_.format;

@@ -18,7 +18,7 @@ CLI::Validator dash_for(const char* stream)
     return {[=](std::string& given)
             {
                 if (given == "-") given = stream;
-                return std::string();
+                return std::string(given.empty() ? "the name is empty; name a file" : "");
             },
             ""};
 }

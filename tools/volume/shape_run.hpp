@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@
 #include "shared/interrupt.hpp"
 #include "shared/open_queue.hpp"
 #include "shared/outputs.hpp"
+#include "shared/printable.hpp"
 #include "shared/writing.hpp"
 #include "volume/deform_report.hpp"
 #include "volume/group_targets.hpp"
@@ -268,6 +270,8 @@ private:
     {
         const std::string& why = report_.run.reason;
         command_.finish();
+        if (!options_.quiet)
+            for (const auto& note : notes_) std::cerr << "taut: note: " << printable(note) << '\n';
         if (code_ == exit_code::infeasible) throw infeasible_problem(why);
         if (interrupted()) throw interrupted_run("there was no mesh to write yet");
         throw no_valid_map(why.empty() ? "nothing was written" : why);

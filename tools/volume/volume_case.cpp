@@ -32,7 +32,7 @@ void require_file(const std::string& output)
         throw usage_error("-o -: a mesh goes to a file, in the format of the input; name one");
 }
 
-void require_name(const std::string& output, const io::volume_file& file)
+void require_name(const std::string& output, const io::volume_file& file, const std::string& option)
 {
     try
     {
@@ -40,7 +40,7 @@ void require_name(const std::string& output, const io::volume_file& file)
     }
     catch (const io::io_error& e)
     {
-        throw usage_error(std::string("-o: ") + e.what());
+        throw usage_error(option + ": " + e.what());
     }
 }
 

@@ -25,7 +25,7 @@ bool names_volume(const std::string& path);
 void require_file(const std::string& output);
 
 /// Throws usage_error for a name that says another format than that of the input, or would overwrite it.
-void require_name(const std::string& output, const io::volume_file& file);
+void require_name(const std::string& output, const io::volume_file& file, const std::string& option = "-o");
 
 /// Reads a volume file. rest: the file of the shape at rest, or empty; its points become the `rest` of the result.
 /// zone: of SU2 files of several, 0: none. Throws io_error, and unsuitable_input where the two are not of the same

@@ -161,6 +161,40 @@ TEST_CASE("zip: sews up one edge, costs what it says, and can be taken back")
     CHECK(done > 0);
 }
 
+TEST_CASE("needles around one vertex: they come into few squares of a grid, and its row alone is full")
+{
+    constexpr idx around = 3000;
+    std::vector<vec3> points = {{0, 0, 0}};
+    std::vector<std::array<idx, 3>> cells;
+    for (idx i = 0; i < around; ++i)
+    {
+        const double a = 2 * std::numbers::pi * i / around;
+        points.push_back({std::cos(a), std::sin(a), 0});
+        cells.push_back({0, 1 + i, 1 + (i + 1) % around});
+    }
+    const rest_surface rest = rest_of(mesh<triangle>(points, cells));
+    std::vector<vec2> uv;
+    map_patch patch;
+    for (idx c = 0; c < around; ++c)
+    {
+        patch.triangles.push_back(c);
+        patch.cells.push_back(cells[at(c)]);
+        for (const idx v : cells[at(c)]) uv.emplace_back(points[at(v)]);
+    }
+    CHECK(grid_squares(rest, uv).size() < 200 * around); // 2,400,000 in their boxes
+    const std::vector<idx> one(at(around), 0);
+    CHECK(overlapping_pairs(rest, uv, one).empty());
+    for (idx v = 0; v <= around; ++v)
+    {
+        patch.x.emplace_back(1.1 * points[at(v)]);
+        patch.slot.push_back(patch.moving++);
+    }
+    patch_newton newton;
+    const double before = patch.energy(rest, patch.x);
+    CHECK(newton.run(rest, patch, 1, 0) < before);
+    CHECK(newton.entries() < 20 * at(around)); // where that row is in the middle, 5,000,000
+}
+
 TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
 {
     // A helix of 1.5 turns, seen from above.

@@ -5,10 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
-#include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +18,25 @@
 
 namespace taut::dist::impl
 {
+
+/// The files that a .pvtu names; none where it cannot be read.
+inline std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& path)
+{
+    std::vector<std::filesystem::path> files;
+    try
+    {
+        const std::string bytes = io::impl::read_file(path);
+        io::impl::xml_tags tags(bytes);
+        while (const auto tag = tags.next())
+            if (const auto source = tag->attribute("Source"); source && tag->name == "Piece")
+                files.push_back(path.parent_path() / io::impl::from_xml(*source));
+    }
+    catch (const io::io_error&)
+    {
+        return {};
+    }
+    return files;
+}
 
 /// An unstructured grid of VTK in pieces: a .pvtu that names .vtu files, of any encoding. Written as a .pvtu whose
 /// pieces lie in a folder beside it that has its name.
@@ -37,6 +56,21 @@ public:
         join();
     }
 
+    /// What is there already in the folder of an output belongs to the output that is there, or to somebody else.
+    void require_output(const std::filesystem::path& path) const override
+    {
+        pieces_volume::require_output(path);
+        std::error_code unknown;
+        const auto before = pieces_of(path);
+        const auto in_folder = [&](const auto& one)
+        { return std::filesystem::equivalent(one.parent_path(), path.parent_path() / path.stem(), unknown); };
+        const bool own = std::any_of(before.begin(), before.end(), in_folder);
+        for (const auto& part : files_)
+            if (const auto target = output_of(part, path); !own && std::filesystem::exists(target, unknown))
+                throw io::io_error(target.string(), "is there already and no piece of " + path.string() +
+                                                        "; move it away, or give the output another name");
+    }
+
 protected:
     std::filesystem::path output_of(const mesh_file& part, const std::filesystem::path& path) const override
     {
@@ -52,7 +86,7 @@ protected:
         for (std::size_t k = 0; k < sources_.size(); ++k)
         {
             text.append(bytes_, done, sources_[k].first - done);
-            text += path.stem().string() + '/' + names_[k];
+            text += io::impl::to_xml(path.stem().string() + '/' + names_[k]);
             done = sources_[k].first + sources_[k].second;
         }
         to.add(path, text.append(bytes_, done));
@@ -75,20 +109,26 @@ private:
         }
         if (!known) throw io::io_error(path.string(), "no VTKFile of type PUnstructuredGrid; save the mesh as one");
         if (sources_.empty()) throw io::io_error(path.string(), "it has no pieces; save the mesh again");
-        std::map<std::string, int> count;
         std::set<std::filesystem::path> named;
-        for (std::size_t k = 0; k < sources_.size(); ++k)
-            if (!named.insert(std::filesystem::path(source(k)).lexically_normal()).second)
-                throw io::io_error(path.string(), "names the piece " + source(k) + " twice; name each once");
+        std::set<std::string> taken;
         for (std::size_t k = 0; k < sources_.size(); ++k)
         {
-            auto name = std::filesystem::path(source(k)).filename().string();
-            if (count[name]++ > 0) name = std::to_string(k) + '-' + name; // of another folder
+            const auto place = std::filesystem::path(source(k)).lexically_normal();
+            if (place.is_absolute() || *place.begin() == "..")
+                throw io::io_error(path.string(), "names the piece " + source(k) +
+                                                      ", outside of its folder; put the pieces beside it or below");
+            if (!named.insert(place).second)
+                throw io::io_error(path.string(), "names the piece " + source(k) + " twice; name each once");
+            auto name = place.filename().string();
+            while (!taken.insert(name).second) name = std::to_string(k) + '-' + name; // of another folder
             names_.push_back(std::move(name));
         }
     }
 
-    std::string source(std::size_t k) const { return bytes_.substr(sources_[k].first, sources_[k].second); }
+    std::string source(std::size_t k) const
+    {
+        return io::impl::from_xml(std::string_view(bytes_).substr(sources_[k].first, sources_[k].second));
+    }
 
     mesh_file read_piece(const std::filesystem::path& path, std::size_t k) const
     {
@@ -123,24 +163,5 @@ private:
     std::vector<std::pair<std::size_t, std::size_t>> sources_; ///< first byte and number of bytes
     std::vector<std::string> names_;                           ///< of the pieces of an output
 };
-
-/// The files that a .pvtu names; none where it cannot be read.
-inline std::vector<std::filesystem::path> pieces_of(const std::filesystem::path& path)
-{
-    std::vector<std::filesystem::path> files;
-    try
-    {
-        const std::string bytes = io::impl::read_file(path);
-        io::impl::xml_tags tags(bytes);
-        while (const auto tag = tags.next())
-            if (const auto source = tag->attribute("Source"); source && tag->name == "Piece")
-                files.push_back(path.parent_path() / std::string(*source));
-    }
-    catch (const io::io_error&)
-    {
-        return {};
-    }
-    return files;
-}
 
 } // namespace taut::dist::impl

@@ -42,33 +42,60 @@ inline bool lie_on_each_other(std::span<const vec2, 3> a, std::span<const vec2, 
     return !parts(a, b) && !parts(b, a);
 }
 
-/// Pairs of triangles of the same chart that lie on each other, ascending; found by a grid.
-/// chart: one label a triangle
-inline std::vector<std::array<idx, 2>> overlapping_pairs(const rest_surface& rest, std::span<const vec2> uv,
-                                                         std::span<const idx> chart)
+/// Whether the unit square at (i, j) is beyond a side of a triangle. Few squares are not beyond one of a needle,
+/// however many its box has.
+inline bool beyond_a_side(const std::array<vec2, 3>& t, double i, double j)
+{
+    const vec2 p = t[1] - t[0], q = t[2] - t[0];
+    const double turn = p.x * q.y < p.y * q.x ? -1 : 1;
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+        const vec2 d = turn * (t[(k + 1) % 3] - t[k]);
+        const vec2 nearest(d.y > 0 ? i : i + 1, d.x > 0 ? j + 1 : j); // to the inside
+        if (d.x * (nearest.y - t[k].y) - d.y * (nearest.x - t[k].x) < -1e-9 * (std::abs(d.x) + std::abs(d.y)))
+            return true;
+    }
+    return false;
+}
+
+/// A square of a grid, and a triangle that comes into it.
+struct square_entry
+{
+    std::int64_t place;
+    idx cell;
+    bool operator<(const square_entry& o) const { return place != o.place ? place < o.place : cell < o.cell; }
+};
+
+/// The squares of a grid into which triangles come, of about their size; by squares, ascending.
+inline std::vector<square_entry> grid_squares(const rest_surface& rest, std::span<const vec2> uv)
 {
     const auto u = rest_surface::u;
     const idx cells = rest.first_span;
     const auto [low, high] = box_about(uv);
     const double size = std::max({1.5 * std::sqrt(rest.total / std::max<idx>(1, cells)),
                                   std::max(high.x - low.x, high.y - low.y) / 2000, 1e-300});
-    struct entry
-    {
-        std::int64_t place;
-        idx cell;
-        bool operator<(const entry& o) const { return place != o.place ? place < o.place : cell < o.cell; }
-    };
-    std::vector<entry> entries;
+    std::vector<square_entry> entries;
     for (idx c = 0; c < cells; ++c)
     {
         const std::size_t k = 3 * u(c);
-        const vec2 least = (glm::min(glm::min(uv[k], uv[k + 1]), uv[k + 2]) - low) / size;
-        const vec2 most = (glm::max(glm::max(uv[k], uv[k + 1]), uv[k + 2]) - low) / size;
+        const std::array<vec2, 3> t = {(uv[k] - low) / size, (uv[k + 1] - low) / size, (uv[k + 2] - low) / size};
+        const vec2 least = glm::min(glm::min(t[0], t[1]), t[2]), most = glm::max(glm::max(t[0], t[1]), t[2]);
         for (auto i = static_cast<std::int64_t>(least.x); i <= static_cast<std::int64_t>(most.x); ++i)
             for (auto j = static_cast<std::int64_t>(least.y); j <= static_cast<std::int64_t>(most.y); ++j)
-                entries.push_back({i * 4096 + j, c});
+                if (!beyond_a_side(t, static_cast<double>(i), static_cast<double>(j)))
+                    entries.push_back({i * 4096 + j, c});
     }
     std::sort(entries.begin(), entries.end());
+    return entries;
+}
+
+/// Pairs of triangles of the same chart that lie on each other, ascending; found by a grid.
+/// chart: one label a triangle
+inline std::vector<std::array<idx, 2>> overlapping_pairs(const rest_surface& rest, std::span<const vec2> uv,
+                                                         std::span<const idx> chart)
+{
+    const auto u = rest_surface::u;
+    const auto entries = grid_squares(rest, uv);
     std::vector<std::array<idx, 2>> pairs;
     for (std::size_t first = 0, end = 0; first < entries.size(); first = end)
     {

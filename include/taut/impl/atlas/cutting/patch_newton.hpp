@@ -65,17 +65,25 @@ public:
         return here;
     }
 
+    /// Of the factors of the last run.
+    std::size_t entries() const { return size_; }
+
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
+    static constexpr int most_ordinary = 64; ///< triangles around a vertex that is no hub
 
     /// Row i of the lower triangle, from column start_[i] on.
     double* row(std::size_t i) { return matrix_.data() + first_[i]; }
 
-    /// Unknowns in the order of the longer side of the patch: what is coupled lies near the diagonal then.
+    /// Unknowns in the order of the longer side of the patch: what is coupled lies near the diagonal then. Hubs, which
+    /// are coupled with all around, come last.
     void lay_out(map_patch& p)
     {
         vec2 low = p.x.front(), high = low;
         order_.clear();
+        degree_.assign(p.x.size(), 0);
+        for (const auto& t : p.cells)
+            for (const idx v : t) ++degree_[u(v)];
         for (std::size_t v = 0; v < p.x.size(); ++v)
         {
             low = glm::min(low, p.x[v]);
@@ -84,7 +92,12 @@ private:
         }
         const int axis = high.x - low.x < high.y - low.y;
         std::stable_sort(order_.begin(), order_.end(),
-                         [&](std::size_t a, std::size_t b) { return p.x[a][axis] < p.x[b][axis]; });
+                         [&](std::size_t a, std::size_t b)
+                         {
+                             const bool hub_a = degree_[a] > most_ordinary, hub_b = degree_[b] > most_ordinary;
+                             if (hub_a != hub_b) return hub_b;
+                             return p.x[a][axis] < p.x[b][axis];
+                         });
         for (std::size_t k = 0; k < order_.size(); ++k) p.slot[order_[k]] = static_cast<idx>(k);
         start_.resize(n_);
         for (std::size_t i = 0; i < n_; ++i) start_[i] = i / 2 * 2;
@@ -226,6 +239,7 @@ private:
 
     std::size_t n_ = 0, size_ = 0;           // unknowns, entries of the envelope
     std::vector<std::size_t> order_;         // of the vertices that move
+    std::vector<int> degree_;                // of all vertices, in triangles
     std::vector<std::size_t> start_, first_; // one a row: its first column, where that lies
     std::vector<double> matrix_, force_, step_;
     std::vector<vec2> moved_, trial_;

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 namespace taut::io::impl
 {
@@ -87,5 +91,37 @@ private:
     std::string_view text_;
     std::size_t at_ = 0;
 };
+
+/// Characters of XML's own, and the names that stand for them.
+inline constexpr std::array<std::pair<char, std::string_view>, 5> xml_entities = {
+    {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}}};
+
+/// What the value of an attribute stands for.
+inline std::string from_xml(std::string_view value)
+{
+    std::string text;
+    while (!value.empty())
+    {
+        const auto* const entity = std::find_if(xml_entities.begin(), xml_entities.end(),
+                                                [&](const auto& e) { return value.starts_with(e.second); });
+        const bool named = entity != xml_entities.end();
+        text += named ? entity->first : value.front();
+        value.remove_prefix(named ? entity->second.size() : 1);
+    }
+    return text;
+}
+
+/// A text as the value of an attribute.
+inline std::string to_xml(std::string_view text)
+{
+    std::string value;
+    for (const char c : text)
+    {
+        const auto* const entity =
+            std::find_if(xml_entities.begin(), xml_entities.end(), [&](const auto& e) { return e.first == c; });
+        value += entity != xml_entities.end() ? entity->second : std::string_view(&c, 1);
+    }
+    return value;
+}
 
 } // namespace taut::io::impl
