@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/atlas/cutting/border_crossings.hpp>
+#include <taut/impl/atlas/cutting/flat_surface.hpp>
 #include <taut/impl/atlas/cutting/laid_part.hpp>
 #include <taut/impl/atlas/cutting/zip.hpp>
 
