@@ -42,7 +42,6 @@ inline double patch_energy(const mesh<triangle>& m, const facet_table& f, idx tr
     constexpr idx patches = 16;
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     std::vector<char> taken(m.cells().size(), 0), seam(f.twin.size(), 0);
-    std::vector<idx> number(m.points().size(), -1);
     double sum = 0, area = 0;
     for (idx k = 0; k < patches; ++k)
     {
@@ -57,7 +56,7 @@ inline double patch_energy(const mesh<triangle>& m, const facet_table& f, idx tr
                 }
         for (const idx c : own) taken[u(c)] = 0;
         std::sort(own.begin(), own.end());
-        const surface_part part = part_of(m, own, seam, number);
+        const surface_part part = part_of(m, own, seam);
         const rest_surface rest = rest_surface::of(part.charts.surface, part.charts.surface.cell_count());
         flat_surface flat;
         flat.seam.resize(rest.facets.twin.size(), 0);
