@@ -176,6 +176,15 @@ test_volumes()
     expect 2 smooth flat.mesh -o -
     error_says 'a mesh goes to a file'
 
+    # A flat cell is told from one that is positive, if only just.
+    {
+        printf 'MeshVersionFormatted 2\nDimension 3\nVertices\n6\n'
+        printf '%s 0\n' '0 0 0' '1 0 0' '0 1 0' '0.3 0.3 1' '0.3 0.3 -1e-17' '2 0 0'
+        printf 'Tetrahedra\n3\n1 2 3 4 1\n1 3 2 5 1\n1 6 2 4 1\nEnd\n'
+    } >thin.mesh
+    expect 4 check thin.mesh
+    says out '^error +1 tetrahedron \(2\) flat;' '^error +1 tetrahedron \(1\) positive, but too thin'
+
     # Turned as another format has it: told, and read turned over.
     awk '$1 == 8 { print 8, $6, $7, $8, $9, $2, $3, $4, $5; next } 1' hex.vtk >turned.vtk
     expect 0 check turned.vtk

@@ -56,15 +56,18 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
                      list_cells(input, turned) + " inverted, in a mesh that is oriented as " + input.file().format +
                          " files are; `taut untangle` moves vertices"},
                     true);
-    if (!thin.empty())
-        report_mesh(report,
-                    {mesh_error::degenerate_cell, thin,
-                     list_cells(input, thin) +
-                         (std::includes(state.inverted.begin(), state.inverted.end(), thin.begin(), thin.end())
-                              ? " flat"
-                              : " flat, or positive but too thin to be a shape at rest") +
-                         "; collapse an edge or move a vertex of each"},
-                    true);
+    const auto flat_there = [&](idx c) { return std::binary_search(state.inverted.begin(), state.inverted.end(), c); };
+    const auto positive = std::stable_partition(thin.begin(), thin.end(), flat_there);
+    const auto report_thin = [&](const std::vector<idx>& cells, const char* what)
+    {
+        if (!cells.empty())
+            report_mesh(report,
+                        {mesh_error::degenerate_cell, cells,
+                         list_cells(input, cells) + what + "; collapse an edge or move a vertex of each"},
+                        true);
+    };
+    report_thin({thin.begin(), positive}, " flat");
+    report_thin({positive, thin.end()}, " positive, but too thin to be a shape at rest");
 }
 
 /// Reports the faces between cells of one kind.
