@@ -41,6 +41,8 @@ def said(tmp_path, *packages, before=(), **environment):
                           env={**kept, "PYTHONPATH": path, "POCL_CACHE_DIR": os.environ.get("POCL_CACHE_DIR", ""),
                                "OCL_ICD_VENDORS": str(tmp_path / "empty"), **environment})
     assert done.returncode == 0, done.stderr
+    if "older than this processor" in done.stdout:
+        pytest.skip("PoCL as pip has it does not know this processor")
     return done.stdout.splitlines()
 
 

@@ -217,6 +217,13 @@ TEST_CASE("kernel: a compiler's refusal shows kernel, log, device and the number
     CHECK(q.counters().builds == 0);
 }
 
+TEST_CASE("kernel: a compiler that is older than the processor is told as such")
+{
+    const taut::build_error e("scale", "error: unknown target CPU 'generic'", "", "a device", CL_BUILD_PROGRAM_FAILURE);
+    CHECK(contains(e.what(), "older than this processor"));
+    CHECK(contains(e.what(), "unknown target CPU"));
+}
+
 TEST_CASE("kernel: excerpts number lines as the compiler does")
 {
     using taut::impl::build_excerpt;

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include <taut/impl/compute/errors.hpp>
+
+namespace taut::impl
+{
+
+/// PoCL compiles for the processor that LLVM finds, and LLVM finds none that is newer than itself.
+inline std::string told_by_compiler(const std::string& log, const std::string& excerpt)
+{
+    if (log.find("unknown target CPU") == std::string::npos) return "the compiler says\n" + log + excerpt;
+    return "the driver's compiler is older than this processor, and does not know it; install a newer driver\n" + log;
+}
+
+} // namespace taut::impl
 
 namespace taut
 {
@@ -17,7 +30,7 @@ device_error::device_error(std::string operation, const std::string& reason, std
 }
 
 build_error::build_error(std::string kernel, std::string log, std::string excerpt, const std::string& device, int code)
-    : device_error("building kernel " + kernel, "the compiler says\n" + log + excerpt, device, code),
+    : device_error("building kernel " + kernel, impl::told_by_compiler(log, excerpt), device, code),
       kernel_(std::move(kernel)),
       log_(std::move(log)),
       excerpt_(std::move(excerpt))
