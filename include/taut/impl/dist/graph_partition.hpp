@@ -66,7 +66,7 @@ std::vector<std::size_t> scotch_owners(const part<Element>& p)
     const petsc_object<IS, ISDestroy> found(processes);
     const PetscInt* values = nullptr;
     require(ISGetIndices(processes, &values));
-    const std::vector<std::size_t> result(values, values + p.own);
+    std::vector<std::size_t> result(values, values + p.own);
     require(ISRestoreIndices(processes, &values));
     return result;
 }
