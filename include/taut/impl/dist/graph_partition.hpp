@@ -60,7 +60,7 @@ std::vector<std::size_t> scotch_owners(const part<Element>& p)
     const petsc_object<MatPartitioning, MatPartitioningDestroy> cut(made);
     require(MatPartitioningSetAdjacency(made, adjacency));
     if (MatPartitioningSetType(made, MATPARTITIONINGPTSCOTCH) != 0)
-        throw parameter_error("partition", "this PETSc has no PTScotch; leave it at the curve");
+        throw parameter_error("solver.partition", "this PETSc has no PTScotch; leave it at the curve");
     IS processes = nullptr;
     require(MatPartitioningApply(made, &processes));
     const petsc_object<IS, ISDestroy> found(processes);
