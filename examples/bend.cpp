@@ -15,7 +15,7 @@ try
     if (argc != 3 && argc != 4) throw error("bend IN OUT [DEGREES]");
     queue q;
     const auto file = io::read_volume_file(argv[1]);
-    const auto volume = io::tetrahedra_of(file);
+    const auto volume = file.tetrahedra();
 
     // [bend]
     vec3 least = file.points.front(), most = least;

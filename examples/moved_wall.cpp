@@ -15,7 +15,7 @@ try
     taut::queue queue;
     // [wall]
     const auto file = taut::io::read_volume_file(argv[1]);
-    const auto mesh = taut::io::triangles_of(file); // tetrahedra_of(file) in space
+    const auto mesh = file.triangles(); // file.tetrahedra() in space
     const auto bulge = [](const taut::vec2& p) { return p + taut::vec2(0, 0.4 * std::pow(p.x * (3 - p.x) / 2.25, 2)); };
     const auto& wall = file.find_group("wall").vertices;
     std::set<taut::idx> still; // corners are in two of the groups

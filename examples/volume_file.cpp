@@ -9,7 +9,7 @@ try
     if (argc != 4) throw taut::error("volume_file IN OUT GROUP");
     // [move]
     const auto file = taut::io::read_volume_file(argv[1]);
-    const auto mesh = taut::io::tetrahedra_of(file);
+    const auto mesh = file.tetrahedra();
     auto points = file.points;
     const auto& group = file.find_group(argv[3]); // "inlet", "triangles:2", or 2 if one group ends so
     for (const taut::idx v : group.vertices) points[static_cast<std::size_t>(v)].z += 0.25;

@@ -60,7 +60,7 @@ io::impl::corner_simplices<Element> simplices_of(const array& V, const nb::list&
                 throw parameter_error("C", "names vertex " + std::to_string(v) + " of " +
                                                std::to_string(file.points.size()));
     }
-    return io::corner_simplices_of<Element>(file);
+    return file.corner_simplices<Element>();
 }
 
 template <class Element>

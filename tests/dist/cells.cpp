@@ -51,7 +51,7 @@ io::volume_file cells_of_bar(int n)
 TEST_CASE("dist cells: hexahedra and wedges find the energy of one process, to ten digits")
 {
     const dist::impl::communicator all(MPI_COMM_WORLD);
-    const auto parts = io::corner_simplices_of<tetrahedron>(cells_of_bar(2));
+    const auto parts = cells_of_bar(2).corner_simplices<tetrahedron>();
     const bool first = rank_of() == 0;
     const auto part = dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
     const auto& m = parts.simplices;
@@ -82,7 +82,7 @@ TEST_CASE("dist cells: hexahedra and wedges find the energy of one process, to t
 
 TEST_CASE("dist cells: energies have the same bits on any number of processes")
 {
-    const auto parts = io::corner_simplices_of<tetrahedron>(cells_of_bar(2));
+    const auto parts = cells_of_bar(2).corner_simplices<tetrahedron>();
     std::vector<double> energies;
     for (int size = 1; size <= size_of(); ++size)
     {
@@ -111,7 +111,7 @@ TEST_CASE("dist cells: energies have the same bits on any number of processes")
 TEST_CASE("dist cells: what is said of cells is of all of them")
 {
     const dist::impl::communicator all(MPI_COMM_WORLD);
-    const auto parts = io::corner_simplices_of<tetrahedron>(cells_of_bar(1));
+    const auto parts = cells_of_bar(1).corner_simplices<tetrahedron>();
     const bool first = rank_of() == 0;
     auto part = dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
     if (rank_of() == size_of() - 1) part.weights.push_back(1);

@@ -226,10 +226,10 @@ void examine(const io::volume_file& file, const std::function<io::volume_file(co
         broken = std::string("what is written can be read: ") + e.what();
     }
     fuzz::require(broken.empty(), broken.c_str());
-    attempt([&] { io::tetrahedra_of(file); });
-    attempt([&] { io::triangles_of(file); });
-    attempt([&] { io::corner_simplices_of(file); });
-    attempt([&] { io::corner_simplices_of<triangle>(file); });
+    attempt([&] { file.tetrahedra(); });
+    attempt([&] { file.triangles(); });
+    attempt([&] { file.corner_simplices(); });
+    attempt([&] { file.corner_simplices<triangle>(); });
     attempt([&] { io::impl::check_sides(file); });
     attempt([&] { io::impl::kept_facets(file, true); });
     attempt([&] { file.find_group("1"); });

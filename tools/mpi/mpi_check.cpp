@@ -117,7 +117,7 @@ checked check_whole(const dist::impl::communicator& all, const io::volume_file& 
         [&]
         {
             if (all.rank() != 0) return;
-            parts = std::make_unique<io::impl::corner_simplices<Element>>(io::corner_simplices_of<Element>(file));
+            parts = std::make_unique<io::impl::corner_simplices<Element>>(file.corner_simplices<Element>());
             found.cells = count_cells(file, Element::dimension);
             found.mixed = parts->overlapping;
             if (!parts->overlapping || Element::dimension != 3) return;

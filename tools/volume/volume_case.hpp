@@ -55,9 +55,9 @@ public:
     static constexpr int D = Element::dimension;
     using map = std::vector<vec<D>>;
 
-    /// The file is referred to. edged: as io::corner_simplices_of() has it. Throws mesh_error, io_error.
+    /// The file is referred to. edged: as io::volume_file::corner_simplices() has it. Throws mesh_error, io_error.
     explicit volume_case(const io::volume_file& file, std::span<const idx> edged = {})
-        : file_(file), parts_(io::corner_simplices_of<Element>(file, edged))
+        : file_(file), parts_(file.corner_simplices<Element>(edged))
     {
     }
 

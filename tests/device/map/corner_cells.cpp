@@ -85,7 +85,7 @@ bool all_valid(const io::volume_file& file, const std::vector<vec3>& x)
 TEST_CASE("corner cells: a bar of hexahedra and wedges is bent, pins hold and all corners stay positive")
 {
     const auto file = bar(test::sized(4, 2));
-    const auto parts = io::corner_simplices_of(file);
+    const auto parts = file.corner_simplices();
     const auto& m = parts.simplices;
     const rigid_motion<3> turn{.from = vec3(0.5, 0.5, 2), .to = vec3(0.5, 0.5, 2.2), .angle = 1};
     deform_params<tetrahedron> how;
@@ -113,7 +113,7 @@ TEST_CASE("corner cells: a bar of hexahedra and wedges is bent, pins hold and al
 TEST_CASE("corner cells: tangled ones are smoothed to regular ones, and flat sides stay flat")
 {
     const auto file = bar(test::sized(4, 3));
-    auto parts = io::corner_simplices_of(file);
+    auto parts = file.corner_simplices();
     auto points = file.points;
     std::mt19937 random(6);
     const double size = test::sized(4, 3);
@@ -136,7 +136,7 @@ TEST_CASE("corner cells: tangled ones are smoothed to regular ones, and flat sid
 
 TEST_CASE("corner cells: quads among triangles of the plane are bent, on a hierarchy that covers them once")
 {
-    const auto parts = io::corner_simplices_of<triangle>(sheet(test::sized(40, 30))); // has coarser levels
+    const auto parts = sheet(test::sized(40, 30)).corner_simplices<triangle>(); // has coarser levels
     const auto& m = parts.simplices;
     const rigid_motion<3> turn{.from = vec3(1, 0.5, 0), .to = vec3(0.9, 0.9, 0), .axis = vec3(0, 0, 1), .angle = 1};
     deform_params<triangle> how;
@@ -160,7 +160,7 @@ TEST_CASE("corner cells: quads among triangles of the plane are bent, on a hiera
 TEST_CASE("corner cells: tangled quads are smoothed to squares; that they cannot be at rest is said by cell")
 {
     const idx n = test::sized(40, 36);
-    const auto parts = io::corner_simplices_of<triangle>(sheet(n));
+    const auto parts = sheet(n).corner_simplices<triangle>();
     auto points = parts.simplices.points();
     std::mt19937 random(2);
     std::uniform_real_distribution<double> move(-0.6 / n, 0.6 / n);
@@ -176,7 +176,7 @@ TEST_CASE("corner cells: tangled quads are smoothed to squares; that they cannot
     CHECK(doctest::String(r.report.notes[0].c_str()) == doctest::Contains("corners of cells ("));
 
     const auto file = bar(2);
-    const auto solid = io::corner_simplices_of(file);
+    const auto solid = file.corner_simplices();
     auto turned = solid.simplices.points();
     std::swap(turned.front(), turned.back());
     deform_params<tetrahedron> how;

@@ -61,7 +61,7 @@ TEST_CASE("cell faces: a face with three cells is non_manifold")
 
 TEST_CASE("cell corners: the boundary of overlapping simplices is that of the cells")
 {
-    const auto parts = io::corner_simplices_of(mixed_file());
+    const auto parts = mixed_file().corner_simplices();
     const auto boundary = boundary_facets(parts.simplices, parts.cells);
     // Tetrahedra: 6 faces. Hexahedron, wedge and pyramid: 4 + 2 quads of four triangles, 2 + 4 triangles.
     CHECK(boundary.size() == 6 + 4 * 6 + 6);
@@ -69,7 +69,7 @@ TEST_CASE("cell corners: the boundary of overlapping simplices is that of the ce
     CHECK(boundary_facets(parts.simplices).size() > boundary.size()); // as if they were cells
 
     // Tetrahedra at the edges of all cells leave the boundary as it is.
-    const auto edged = io::corner_simplices_of(mixed_file(), std::vector<idx>{0, 1, 2, 3, 4});
+    const auto edged = mixed_file().corner_simplices(std::vector<idx>{0, 1, 2, 3, 4});
     CHECK(edged.cells.size() == parts.cells.size() + 6 + 24);
     CHECK(boundary_facets(edged.simplices, edged.cells).size() == boundary.size());
     for (idx c = 0; c < edged.simplices.cell_count(); ++c)

@@ -38,7 +38,7 @@ TEST_CASE("groups: found by name, or by a number that one name ends in; else wha
 TEST_CASE("tetrahedra: the order of corners is mended, by what neighbours have")
 {
     auto s = test::small_volume(false);
-    const auto tetrahedra = io::tetrahedra_of(medit_file(s));
+    const auto tetrahedra = medit_file(s).tetrahedra();
     CHECK(tetrahedra.cell_count() == 2);
     const auto all_positive = [](const mesh<tetrahedron>& m)
     {
@@ -62,17 +62,17 @@ TEST_CASE("tetrahedra: the order of corners is mended, by what neighbours have")
     {
         auto file = turned(cells);
         CHECK(file.turned == cells);
-        CHECK(all_positive(io::tetrahedra_of(file)));
+        CHECK(all_positive(file.tetrahedra()));
         CHECK(io::impl::check_sides(file).empty());
         CHECK(io::impl::with_points(file, file.points) == file.bytes);
         io::impl::turn_cells(file, cells);
         CHECK(file.turned.empty());
-        CHECK_FALSE(all_positive(io::tetrahedra_of(file)));
+        CHECK_FALSE(all_positive(file.tetrahedra()));
         CHECK(io::impl::check_sides(file).size() == (cells.size() == 1 ? 1 : 0)); // where both are, they agree
     }
     CHECK(io::impl::describe_turned(turned({1})) ==
           "1 cell (1) has its corners in the other order than MEDIT files or neighbours have it");
-    CHECK_THROWS_WITH_AS(io::tetrahedra_of(medit_file(test::small_volume(true))),
+    CHECK_THROWS_WITH_AS(medit_file(test::small_volume(true)).tetrahedra(),
                          "a.mesh: cell 2 is a pyramid; this takes tetrahedra alone, split it into such", io::io_error);
 }
 
@@ -81,7 +81,7 @@ TEST_CASE("corner simplices: each corner of each kind, all positive, with the ce
     const auto s = test::small_volume(true);
     for (const auto& file : {medit_file(s), io::impl::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk)})
     {
-        const auto corners = io::corner_simplices_of(file);
+        const auto corners = file.corner_simplices();
         CHECK(corners.simplices.cell_count() == 2 * 1 + 4 + 6 + 8);
         REQUIRE(corners.cells.size() == 20);
         CHECK(corners.cells.front() == 0); // the triangle that comes first does not count
@@ -91,7 +91,7 @@ TEST_CASE("corner simplices: each corner of each kind, all positive, with the ce
         for (idx c = 0; c < corners.simplices.cell_count(); ++c)
             CHECK(tetrahedron::determinant(corners.simplices.rest(c)) > 0);
     }
-    CHECK_THROWS_AS(io::corner_simplices_of(medit_file(test::small_square())), mesh_error);
+    CHECK_THROWS_AS(medit_file(test::small_square()).corner_simplices(), mesh_error);
 }
 
 TEST_CASE("corner simplices: cells of any kind in the other order are read turned over")
@@ -111,7 +111,7 @@ TEST_CASE("corner simplices: cells of any kind in the other order are read turne
         for (const auto& file : {medit_file(s), io::impl::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk)})
         {
             CHECK(file.turned.size() == 1); // whose number MEDIT, which sorts by kind, has otherwise
-            const auto simplices = io::corner_simplices_of(file).simplices;
+            const auto simplices = file.corner_simplices().simplices;
             for (idx c = 0; c < simplices.cell_count(); ++c) CHECK(tetrahedron::determinant(simplices.rest(c)) > 0);
         }
     }

@@ -128,12 +128,12 @@ TEST_CASE("volumes: planar files have two coordinates, or no volume and one z")
         const auto read = [format = format](const std::string& b) { return io::impl::parse_volume(b, format); };
         const auto file = read(bytes);
         CHECK(file.dimension == 2);
-        CHECK(io::triangles_of(file).cell_count() == 4);
-        CHECK_THROWS_AS(io::tetrahedra_of(file), mesh_error);
+        CHECK(file.triangles().cell_count() == 4);
+        CHECK_THROWS_AS(file.tetrahedra(), mesh_error);
         CHECK(test::broken_promise(file, read) == "");
     }
     CHECK_THROWS_WITH_AS(
-        io::triangles_of(io::impl::parse_volume(test::medit_text(small_volume(false)), volume_format::medit)),
+        io::impl::parse_volume(test::medit_text(small_volume(false)), volume_format::medit).triangles(),
         doctest::Contains("no planar mesh"), mesh_error);
 }
 
@@ -146,7 +146,7 @@ TEST_CASE("volumes: a problem's points are its initial map, its group what is fi
     CHECK(file.points[3] == vec3(0, 0, -1));
     CHECK(file.rest[3] == vec3(0, 0, 1));
     CHECK(file.find_group("fixed").vertices == std::vector<idx>{0, 2});
-    CHECK(io::tetrahedra_of(file).points()[3] == vec3(0, 0, 1)); // at rest
+    CHECK(file.tetrahedra().points()[3] == vec3(0, 0, 1)); // at rest
     CHECK(test::broken_promise(file, read) == "");
     const auto planar = read("3 2\n0 0\n1 0\n0 1\n3 2\n0 0\n2 0\n0 2\n1 3\n0 1 2\n0\n");
     CHECK(planar.dimension == 2);

@@ -71,7 +71,7 @@ TEST_CASE("gmsh: nodes with parameters of version 2, and version 1 by name")
     const std::string elements = "$Elements\n1\n1 4 2 1 1 1 2 3 4\n$EndElements\n";
     const auto file = read_gmsh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$ParametricNodes\n" + nodes +
                                 "$EndParametricNodes\n" + elements);
-    CHECK(io::tetrahedra_of(file).points() == std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+    CHECK(file.tetrahedra().points() == std::vector<vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
     CHECK_THROWS_WITH_AS(read_gmsh("$NOD\n1\n1 0 0 0\n$ENDNOD\n$ELM\n0\n$ENDELM\n"),
                          doctest::Contains("version 1 of the format is not read; save as 2.2 or 4.1"), io::io_error);
 }

@@ -35,7 +35,7 @@ TEST_CASE("MEDIT: a line may hold anything, the vertices come anywhere, unknown 
                                  "RequiredVertices 1\n4\nVertices 4 0 0 0 0 1 0 0 0 0 1 0 0 0 0 +1.50 9\nEnd junk");
     CHECK(file.points[3] == vec3(0, 0, 1.5));
     CHECK(file.places.single);
-    CHECK(io::tetrahedra_of(file).cell_count() == 1);
+    CHECK(file.tetrahedra().cell_count() == 1);
     CHECK(file.find_group("required_vertices").vertices == std::vector<idx>{3});
 }
 

@@ -33,7 +33,7 @@ TEST_CASE("SU2: keys in any order and spelling, comments, what stands behind num
         "MARKER_TAG= wing\nMARKER_ELEMS= 1\n5 1 3 2\nMARKER_TAG= SEND_RECEIVE\nMARKER_ELEMS= 1\nSEND_RECV= 1\n1 0\n"
         "NELEM= 1\n10 0 1 2 3 0\n"
         "FFD_NBOX= 1\nFFD_TAG= BOX\n1.0 2.0\n");
-    CHECK(io::tetrahedra_of(file).cell_count() == 1);
+    CHECK(file.tetrahedra().cell_count() == 1);
     CHECK(file.groups.size() == 1); // both are called wing, and are joined
     CHECK(file.find_group("wing:2").vertices == std::vector<idx>{0, 1, 2, 3});
 }

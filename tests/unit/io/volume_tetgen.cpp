@@ -24,7 +24,7 @@ TEST_CASE("TetGen: nodes, elements and faces, counted from any number; markers a
         { return io::impl::parse_tetgen(nodes, elements, test::tetgen_cells(s, cell_kind::triangle, first)); };
         const auto file = read(test::tetgen_nodes(s, first));
         CHECK(file.points == s.points);
-        CHECK(io::tetrahedra_of(file).cells()[1] == std::array<idx, 4>{0, 2, 1, 4});
+        CHECK(file.tetrahedra().cells()[1] == std::array<idx, 4>{0, 2, 1, 4});
         CHECK(file.find_group("points:1").vertices == std::vector<idx>{1, 3});
         CHECK(file.find_group("faces:7").vertices == std::vector<idx>{0, 1, 2});
         CHECK(file.find_group("tetrahedra:2").vertices == std::vector<idx>{0, 1, 2, 4});
@@ -46,7 +46,7 @@ TEST_CASE("TetGen: two dimensions are triangles, as Triangle writes them")
 {
     const auto file = io::impl::parse_tetgen("4 2 0 0\n1 0 0\n2 1 0\n3 1 1\n4 0 1\n", "2 3 0\n1 1 2 3\n2 1 3 4\n");
     CHECK(file.dimension == 2);
-    CHECK(io::triangles_of(file).cell_count() == 2);
+    CHECK(file.triangles().cell_count() == 2);
     CHECK(io::impl::with_points(file, std::vector<vec3>{{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {0, 1, 0}}) ==
           "4 2 0 0\n1 0 0\n2 2 0\n3 1 1\n4 0 1\n");
 }

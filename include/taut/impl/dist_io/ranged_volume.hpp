@@ -157,7 +157,7 @@ public:
             });
         piece.cells.clear();
         if (local.cells.empty()) return;
-        auto parts = io::corner_simplices_of<tetrahedron>(local, edged);
+        auto parts = local.corner_simplices<tetrahedron>(edged);
         for (const auto& c : parts.simplices.cells())
         {
             auto& ids = piece.cells.emplace_back();

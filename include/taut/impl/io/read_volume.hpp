@@ -17,7 +17,7 @@ namespace taut::io
 volume_file read_volume_file(const std::filesystem::path& path, volume_format format = volume_format::automatic,
                              int zone = 0);
 
-/// Reads the tetrahedra of a volume mesh. Throws mesh_error as tetrahedra_of().
+/// Reads the tetrahedra of a volume mesh. Throws mesh_error as volume_file::tetrahedra().
 mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format = volume_format::automatic);
 
 } // namespace taut::io

@@ -185,6 +185,18 @@ struct companion_file
     std::string bytes;
 };
 
+/// The cells of a file as simplices: tetrahedra, or triangles of a planar file, for themselves; others as the simplices
+/// at their corners, which overlap.
+template <class Element>
+struct corner_simplices
+{
+    mesh<Element> simplices;                      ///< at rest
+    std::vector<idx> cells;                       ///< the cell of each, as for_each_cell() counts
+    bool overlapping = false;                     ///< there are cells of other kinds
+    std::vector<mat<Element::dimension>> regular; ///< edge matrix of each where its cell has equal edges of length 1
+    std::vector<double> weights; ///< weight of each, so that a cell counts once; exact for parallelepipeds
+};
+
 } // namespace taut::io::impl
 
 namespace taut::io
@@ -211,6 +223,26 @@ struct volume_file
 
     /// The shape that its cells have at rest.
     const std::vector<vec3>& at_rest() const { return rest.empty() ? points : rest; }
+
+    /// Tetrahedral mesh of the file at rest, cells in the order of the file. Some may be inverted: which, validate()
+    /// tells. Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty).
+    mesh<tetrahedron> tetrahedra() const;
+
+    /// Triangle mesh of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if
+    /// there are no triangles, or the file is of dimension 3.
+    mesh<triangle> triangles() const;
+
+    /// Corner simplices of cells: one per corner with `dimension` edges, spanned by these edges: 4 per quad, 4 per
+    /// pyramid (at the corners of its base), 6 per wedge, 8 per hexahedron; cells of lower dimension have none. That all
+    /// are positive is necessary for a wedge, pyramid or hexahedron to be valid, not sufficient
+    /// (exact/cell_validity.hpp decides it); for a quad it is both. Throws mesh_error (empty) as tetrahedra() does;
+    /// triangles: also where the file has dimension 3.
+    ///
+    /// edged: wedges and hexahedra, ascending, that have the tetrahedra at their edges, too, after those at the
+    /// corners, 6 and 24 (exact/cell_tetrahedra.hpp). Where all are positive a wedge is valid; of a hexahedron that is
+    /// not proved, but no other was found in 700,000 at random.
+    template <class Element = tetrahedron>
+    impl::corner_simplices<Element> corner_simplices(std::span<const idx> edged = {}) const;
 
     /// The group of a name. A number alone finds the one group whose name ends in ":" and it. Throws group_error.
     const impl::volume_group& find_group(std::string_view name) const;
@@ -239,53 +271,6 @@ void turn_cells(volume_file& file, std::span<const idx> cells);
 std::string describe_turned(const volume_file& file);
 
 } // namespace taut::io::impl
-
-namespace taut::io
-{
-
-/// Tetrahedral mesh of the file at rest, cells in the order of the file. Some may be inverted: which, validate() tells.
-/// Throws io_error if there are volume cells of other kinds; mesh_error if there are none (empty).
-mesh<tetrahedron> tetrahedra_of(const volume_file& file);
-
-/// Triangle mesh of a planar file at rest, z as it is. Throws io_error if there are quads, mesh_error (empty) if there
-/// are no triangles, or the file is of dimension 3.
-mesh<triangle> triangles_of(const volume_file& file);
-
-} // namespace taut::io
-
-namespace taut::io::impl
-{
-
-/// The cells of a file as simplices: tetrahedra, or triangles of a planar file, for themselves; others as the simplices
-/// at their corners, which overlap.
-template <class Element>
-struct corner_simplices
-{
-    mesh<Element> simplices;                      ///< at rest
-    std::vector<idx> cells;                       ///< the cell of each, as for_each_cell() counts
-    bool overlapping = false;                     ///< there are cells of other kinds
-    std::vector<mat<Element::dimension>> regular; ///< edge matrix of each where its cell has equal edges of length 1
-    std::vector<double> weights; ///< weight of each, so that a cell counts once; exact for parallelepipeds
-};
-
-} // namespace taut::io::impl
-
-namespace taut::io
-{
-
-/// Corner simplices of cells: one per corner with `dimension` edges, spanned by these edges: 4 per quad, 4 per pyramid
-/// (at the corners of its base), 6 per wedge, 8 per hexahedron; cells of lower dimension have none. That all are
-/// positive is necessary for a wedge, pyramid or hexahedron to be valid, not sufficient (exact/cell_validity.hpp
-/// decides it); for a quad it is both. Throws mesh_error (empty) as tetrahedra_of does; triangles: also where the file
-/// has dimension 3.
-///
-/// edged: wedges and hexahedra, ascending, that have the tetrahedra at their edges, too, after those at the corners, 6
-/// and 24 (exact/cell_tetrahedra.hpp). Where all are positive a wedge is valid; of a hexahedron that is not proved, but
-/// no other was found in 700,000 at random.
-template <class Element = tetrahedron>
-impl::corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span<const idx> edged = {});
-
-} // namespace taut::io
 
 #ifdef TAUT_IMPLEMENTATION
 #include <taut/impl/io/volume/volume_file.ipp>

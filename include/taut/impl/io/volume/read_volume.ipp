@@ -95,7 +95,7 @@ volume_file read_volume_file(const std::filesystem::path& path, volume_format fo
 
 mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format)
 {
-    return tetrahedra_of(read_volume_file(path, format));
+    return read_volume_file(path, format).tetrahedra();
 }
 
 } // namespace taut::io

@@ -144,28 +144,28 @@ std::string describe_turned(const volume_file& file)
 namespace taut::io
 {
 
-mesh<tetrahedron> tetrahedra_of(const volume_file& file)
+mesh<tetrahedron> volume_file::tetrahedra() const
 {
-    return impl::cells_as<tetrahedron>(file, cell_kind::tetrahedron,
+    return impl::cells_as<tetrahedron>(*this, cell_kind::tetrahedron,
                                        "; this takes tetrahedra alone, split it into such");
 }
 
-mesh<triangle> triangles_of(const volume_file& file)
+mesh<triangle> volume_file::triangles() const
 {
-    impl::require_planar(file);
-    return impl::cells_as<triangle>(file, cell_kind::triangle, "; this takes triangles alone, split it into such");
+    impl::require_planar(*this);
+    return impl::cells_as<triangle>(*this, cell_kind::triangle, "; this takes triangles alone, split it into such");
 }
 
 template <class Element>
-impl::corner_simplices<Element> corner_simplices_of(const volume_file& file, std::span<const idx> edged)
+impl::corner_simplices<Element> volume_file::corner_simplices(std::span<const idx> edged) const
 {
-    if constexpr (Element::dimension == 2) impl::require_planar(file);
+    if constexpr (Element::dimension == 2) impl::require_planar(*this);
     std::vector<typename mesh<Element>::cell> simplices;
     std::vector<idx> cells;
     std::vector<mat<Element::dimension>> regular;
     std::vector<double> weights;
     bool overlapping = false;
-    impl::for_each_cell(file, Element::dimension,
+    impl::for_each_cell(*this, Element::dimension,
                         [&](cell_kind kind, idx number, std::span<const idx> corners)
                         {
                             const auto regular_one = impl::regular_corner(kind, Element{});
@@ -191,15 +191,15 @@ impl::corner_simplices<Element> corner_simplices_of(const volume_file& file, std
                         });
     if (simplices.empty())
         throw mesh_error(mesh_error::empty, {},
-                         file.path + (Element::dimension == 2 ? ": no triangles or quads" : ": no volume cells") +
+                         path + (Element::dimension == 2 ? ": no triangles or quads" : ": no volume cells") +
                              "; give a mesh of them");
-    mesh<Element> result(file.at_rest(), std::move(simplices));
+    mesh<Element> result(at_rest(), std::move(simplices));
     return {std::move(result), std::move(cells), overlapping, std::move(regular), std::move(weights)};
 }
 
 } // namespace taut::io
 
-template taut::io::impl::corner_simplices<taut::tetrahedron> taut::io::corner_simplices_of(const volume_file&,
-                                                                                           std::span<const taut::idx>);
-template taut::io::impl::corner_simplices<taut::triangle> taut::io::corner_simplices_of(const volume_file&,
-                                                                                        std::span<const taut::idx>);
+template taut::io::impl::corner_simplices<taut::tetrahedron> taut::io::volume_file::corner_simplices(
+    std::span<const taut::idx>) const;
+template taut::io::impl::corner_simplices<taut::triangle> taut::io::volume_file::corner_simplices(
+    std::span<const taut::idx>) const;
