@@ -271,7 +271,7 @@ try
         const std::array<std::string, 2> labels =
             known == index.end() ? std::array<std::string, 2>{"-", "-"} : known->second;
         std::visit([&](auto problem) { bench.measure(name, labels, make_untangle_problem(std::move(problem))); },
-                   io::impl::read_any_prob(file));
+                   io::read_prob(file));
     }
     if (files.empty()) bench.measure("generated", {"-", "-"}, collapsed_square(options.quick ? 8 : 60));
     bench.print_totals();

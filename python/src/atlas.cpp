@@ -59,7 +59,7 @@ struct atlas_job
         {
             repair_params how;
             how.polygons = polygons;
-            if (weld) how.weld_tolerance = usual_weld_tolerance(points, triangles);
+            if (weld) how.weld_tolerance = repair_params::usual_tolerance(points, triangles);
             repaired.emplace(repair_surface(points, triangles, how));
         }
         else

@@ -61,7 +61,7 @@ std::shared_ptr<queue> borrow_queue(const std::string& device)
             list.pop_back();
         }
     }
-    if (!found) found = std::make_unique<queue>(wish.empty() ? choose_device() : find_device(wish));
+    if (!found) found = std::make_unique<queue>(wish.empty() ? find_device() : find_device(wish));
     return {found.release(), [wish](queue* q)
             {
                 std::unique_ptr<queue> back(q);

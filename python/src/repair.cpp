@@ -20,7 +20,7 @@ nb::dict repair(const array& V, const array& F, const nb::dict& keywords)
     std::vector<idx> polygons;
     if (const auto a = given.rows("polygons")) polygons = ids_of(*a);
     params.polygons = polygons;
-    if (given.get("usual_weld", false)) params.weld_tolerance = usual_weld_tolerance(points, triangles);
+    if (given.get("usual_weld", false)) params.weld_tolerance = repair_params::usual_tolerance(points, triangles);
     given.read("weld", params.weld_tolerance);
     std::optional<repaired_surface> made;
     {

@@ -94,7 +94,7 @@ std::shared_ptr<shape_job<Element>> job_of(const array& V, const nb::list& C, co
     given.read("device", job->device);
     given.read("refine", job->refine);
     given.read("refine_rounds", job->refining.rounds);
-    given.read("most_growth", job->refining.most_growth);
+    given.read("most_growth", job->refining.max_growth);
     return job;
 }
 
@@ -140,7 +140,7 @@ nb::object deform_of(const array& V, const nb::list& C, const nb::dict& keywords
                     {
                         job->queue_in_use = borrow_queue(job->device);
                         if (job->refine)
-                            return deform_refined(*job->queue_in_use, job->simplices(), job->deforming, job->refining);
+                            return deform(*job->queue_in_use, job->simplices(), job->deforming, job->refining);
                         return impl::refined_deformation<Element>{
                             deform(*job->queue_in_use, job->simplices(), job->deforming), job->simplices(), {}, {}, 0};
                     }),
@@ -227,8 +227,7 @@ nb::object untangle_of(const array& X, const nb::list& C, const nb::dict& keywor
                     [job]
                     {
                         job->queue_in_use = borrow_queue(job->device);
-                        if (job->refine)
-                            return untangle_refined(*job->queue_in_use, job->problem, job->params, job->refining);
+                        if (job->refine) return untangle(*job->queue_in_use, job->problem, job->params, job->refining);
                         return impl::refined_untangling<Element>{
                             untangle(*job->queue_in_use, job->problem, job->params), {job->problem}};
                     }),

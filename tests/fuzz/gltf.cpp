@@ -126,7 +126,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const auto& t : model.triangles)
             for (const idx v : t) fuzz::require(v >= 0 && v < n, "triangles name points");
         const auto uv = corner_uv(model);
-        auto [document, bytes] = io::impl::gltf_writer(model, uv, 0, io::gltf_numbers::floats).write();
+        auto [document, bytes] = io::impl::gltf_writer(model, uv, 0, io::gltf_model::numbers::floats).write();
         const auto again = io::impl::join_glb(document.dump(), bytes, {}, "again");
         try
         {

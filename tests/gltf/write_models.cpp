@@ -75,5 +75,5 @@ int main(int argc, char** argv)
         io::write_gltf(folder / ("new-" + std::to_string(size) + ".glb"), model, charts(model, size));
     for (vec3& p : points) p = 1e30 * (p + vec3(500000, 5400000, 0)); // a node with a translation and a scale
     const auto far = io::gltf_of(points, triangles);
-    io::write_gltf(folder / "far-40.glb", far, charts(far, 40), 0, io::gltf_numbers::fractions);
+    io::write_gltf(folder / "far-40.glb", far, charts(far, 40), 0, io::gltf_model::numbers::fractions);
 }

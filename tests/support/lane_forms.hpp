@@ -13,7 +13,7 @@ namespace taut::test
 /// of kilobytes an item there.
 inline std::vector<impl::lane_form> lane_forms()
 {
-    if (choose_device().is_cpu()) return {{16, 16}, {32, 1}};
+    if (find_device().is_cpu()) return {{16, 16}, {32, 1}};
     return {{32, 1}};
 }
 

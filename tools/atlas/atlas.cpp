@@ -60,7 +60,7 @@ void keep_freed_memory()
 }
 
 /// Rounds a coordinate in the plane of the atlas as in glTF, whose v is -v there.
-template <io::gltf_numbers Numbers>
+template <io::gltf_model::numbers Numbers>
 vec2 in_gltf(vec2 x)
 {
     const vec2 y = io::texcoord_in_gltf({x.x, -x.y}, Numbers);
@@ -218,17 +218,17 @@ private:
     /// Texture coordinates are floats, or fractions where these hold what is pinned as it is and floats do not.
     void store_in_gltf(atlas_params& params)
     {
-        params.stored = in_gltf<io::gltf_numbers::floats>;
+        params.stored = in_gltf<io::gltf_model::numbers::floats>;
         if (holds_pinned(params)) return;
-        params.stored = in_gltf<io::gltf_numbers::fractions>;
-        numbers_ = io::gltf_numbers::fractions;
+        params.stored = in_gltf<io::gltf_model::numbers::fractions>;
+        numbers_ = io::gltf_model::numbers::fractions;
         if (params.packing.tiles == 1 && holds_pinned(params)) // they end at 1
         {
             params.packing.rounding = std::max(params.packing.rounding, 0.5 / 65535);
             return;
         }
-        params.stored = in_gltf<io::gltf_numbers::floats>;
-        numbers_ = io::gltf_numbers::floats;
+        params.stored = in_gltf<io::gltf_model::numbers::floats>;
+        numbers_ = io::gltf_model::numbers::floats;
         report_.notes.push_back("coordinates of pinned charts are rounded to single precision, as glTF has no other");
     }
 
@@ -342,7 +342,7 @@ private:
     std::vector<std::unique_ptr<atlas_source>> sources_;
     std::optional<joined_surfaces> joined_;
     std::optional<atlas> atlas_;
-    io::gltf_numbers numbers_ = io::gltf_numbers::floats;
+    io::gltf_model::numbers numbers_ = io::gltf_model::numbers::floats;
     atlas_run_report report_;
 };
 

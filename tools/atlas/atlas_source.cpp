@@ -101,7 +101,8 @@ public:
         return count_reversed_fans(file_.faces, at);
     }
 
-    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map, io::gltf_numbers numbers,
+    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map,
+                                         io::gltf_model::numbers numbers,
                                          std::vector<std::string>& changes) const override
     {
         if (io::is_gltf(path))
@@ -197,7 +198,8 @@ public:
         const auto bodies = point_meshes();
         if (options.repair)
         {
-            const double weld = options.weld ? *options.weld : usual_weld_tolerance(model_.points, model_.triangles);
+            const double weld =
+                options.weld ? *options.weld : repair_params::usual_tolerance(model_.points, model_.triangles);
             take(repair_surface(model_.points, model_.triangles, {.weld_tolerance = weld, .bodies = bodies}));
         }
         else
@@ -214,7 +216,8 @@ public:
         return result;
     }
 
-    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map, io::gltf_numbers numbers,
+    std::vector<io::file_to_write> files(const std::string& path, const corner_map& map,
+                                         io::gltf_model::numbers numbers,
                                          std::vector<std::string>& changes) const override
     {
         return gltf_files(path, model_, map, set_, numbers, changes);
@@ -275,7 +278,7 @@ std::vector<idx> atlas_source::file_faces() const
 }
 
 std::vector<io::file_to_write> atlas_source::gltf_files(const std::string& path, const io::gltf_model& model,
-                                                        const corner_map& map, int set, io::gltf_numbers numbers,
+                                                        const corner_map& map, int set, io::gltf_model::numbers numbers,
                                                         std::vector<std::string>& changes) const
 {
     const vec2 none(std::numeric_limits<double>::quiet_NaN());

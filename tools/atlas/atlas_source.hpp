@@ -69,7 +69,8 @@ public:
     /// glTF one point. Throws no_valid_map if a polygon is in several charts.
     /// changes: gets what the files do not have as it was, in sentences
     virtual std::vector<io::file_to_write> files(const std::string& path, const corner_map& map,
-                                                 io::gltf_numbers numbers, std::vector<std::string>& changes) const = 0;
+                                                 io::gltf_model::numbers numbers,
+                                                 std::vector<std::string>& changes) const = 0;
 
     idx file_vertices = 0, file_triangles = 0;
     std::vector<std::string> notes; ///< what was changed in reading, in sentences
@@ -102,7 +103,7 @@ protected:
 
     /// The files of a model of glTF with this map of the surface. What has no place in it lies in one point.
     std::vector<io::file_to_write> gltf_files(const std::string& path, const io::gltf_model& model,
-                                              const corner_map& map, int set, io::gltf_numbers numbers,
+                                              const corner_map& map, int set, io::gltf_model::numbers numbers,
                                               std::vector<std::string>& changes) const;
 
     /// Says which triangles have mirrored images for those who read their corners as the file has them.

@@ -186,7 +186,7 @@ private:
             {
                 try
                 {
-                    return normals ? bake_normals(*queue_, image, frames, own, *other, how)
+                    return normals ? bake(*queue_, image, frames, own, *other, how)
                                    : bake(*queue_, image, own, *other, how);
                 }
                 catch (const parameter_error& e) // of what the files have
@@ -297,7 +297,7 @@ private:
             texture values{1, static_cast<idx>(read.values.size()) / read.channels, read.channels, read.values};
             if (colours && !read.linear) to_linear(values);
             const auto one = [&](const texture& x, const corner_uv&, const bake_params& how)
-            { return bake_corners(*queue_, x.texels, x.channels, new_.uv, how); };
+            { return bake(*queue_, x.texels, x.channels, new_.uv, how); };
             report_.bake += command_.clock.timed(
                 [&] {
                     baked = bake_tiles({false, {{0, values}}}, {}, new_.uv, several, to_params(options_), one);

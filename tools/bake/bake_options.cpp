@@ -50,11 +50,12 @@ void declare_pictures(CLI::App& app, bake_options& o)
         app, "--content", o.content,
         {{"colour", texture_content::colour}, {"data", texture_content::data}, {"normal", texture_content::normal}},
         "Numbers of the texture: colours of sRGB, any data as they are, or normals in tangent space");
-    add_choice<texture_filter>(app, "--filter", o.filter,
-                               {{"bilinear", texture_filter::bilinear}, {"nearest", texture_filter::nearest}},
-                               "Interpolation between old texels; nearest: for labels");
-    add_choice<texture_wrap>(app, "--wrap", o.wrap, {{"repeat", texture_wrap::repeat}, {"clamp", texture_wrap::clamp}},
-                             "Continuation of the old texture beyond the unit square");
+    add_choice<texture::filter>(app, "--filter", o.filter,
+                                {{"bilinear", texture::filter::bilinear}, {"nearest", texture::filter::nearest}},
+                                "Interpolation between old texels; nearest: for labels");
+    add_choice<texture::wrap>(app, "--wrap", o.wrap,
+                              {{"repeat", texture::wrap::repeat}, {"clamp", texture::wrap::clamp}},
+                              "Continuation of the old texture beyond the unit square");
     app.add_option("--resolution", o.size, "Texels of the new texture, N or WIDTHxHEIGHT; default those of the old one")
         ->type_name("N|WxH")
         ->check(CLI::Validator([](const std::string& text)
@@ -142,7 +143,7 @@ void check(const bake_options& o)
     if (!o.of_model() && into_model)
         throw usage_error("-o " + o.output + ": one texture is written as .png or .exr; name it so");
     if (o.of_model() && !o.difference.empty()) throw usage_error("--difference is of one texture; give --texture");
-    if (o.filter == texture_filter::nearest && o.samples > 1)
+    if (o.filter == texture::filter::nearest && o.samples > 1)
         throw usage_error("--samples: a mean of labels is none; leave it out with --filter nearest");
     if (o.colours_of_vertices && o.content == texture_content::normal)
         throw usage_error("--content normal is of textures; leave it out with --vertex-colours");

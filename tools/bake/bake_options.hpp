@@ -21,8 +21,8 @@ struct bake_options
     std::string before, after, texture, output, difference, stats, device, size;
     io::surface_format format{};
     texture_content content = texture_content::colour;
-    texture_filter filter = texture_filter::bilinear;
-    texture_wrap wrap = texture_wrap::repeat;
+    texture::filter filter = texture::filter::bilinear;
+    texture::wrap wrap = texture::wrap::repeat;
     int samples = 1, bits = 0;                   ///< bits: 0: as the old texture
     int texcoord_set = 0, new_texcoord_set = -1; ///< of glTF; -1: the same
     double gutter = bake_params{}.gutter;

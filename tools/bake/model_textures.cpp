@@ -68,7 +68,7 @@ model_texture use_of(const io::gltf_model& model, const std::string& key, const 
     {
         const auto sampler = io::impl::item_of(model.source, "samplers", texture["sampler"].get<std::size_t>());
         constexpr std::size_t clamp_to_edge = 33071;
-        if (sampler.whole("wrapS", 10497) == clamp_to_edge) use.wrap = texture_wrap::clamp;
+        if (sampler.whole("wrapS", 10497) == clamp_to_edge) use.wrap = texture::wrap::clamp;
     }
     const auto found = info.value(pointer("/extensions/KHR_texture_transform"), gltf_json());
     if (!found.is_object()) return use;

@@ -26,7 +26,7 @@ struct model_texture
     std::size_t image = 0;
     std::string name; ///< for people
     texture_content content = texture_content::data;
-    texture_wrap wrap = texture_wrap::repeat;
+    texture::wrap wrap = texture::wrap::repeat;
     std::array<double, 5> transform{0, 0, 0, 1, 1};          ///< KHR_texture_transform: offset, rotation, scale
     std::vector<io::impl::gltf_json::json_pointer> places{}; ///< of the textureInfos in the document
     std::vector<std::array<std::size_t, 2>> shown{};         ///< ranges of triangles: the first, and how many

@@ -76,7 +76,7 @@ bake_tiles(const tile_set& old, const corner_uv& from, const corner_uv& to, bool
             result.emplace(tile, bake(old.images.begin()->second, from, own));
             continue;
         }
-        own.wrap = texture_wrap::clamp;
+        own.wrap = texture::wrap::clamp;
         own.gutter = 0;
         for (const auto& [number, image] : old.images)
         {

@@ -262,7 +262,7 @@ check_report examine(const check_options& options)
             check_volume(report, options);
         else if (!options.format || (by_name && extension(options.input) == ".prob"))
             std::visit([&](auto&& file) { check_problem(report, options, std::move(file)); },
-                       io::impl::read_any_prob(options.input));
+                       io::read_prob(options.input));
         else
             check_surface(report, options);
     }

@@ -105,7 +105,7 @@ void build_named(queue& q)
 
 exit_code run(const build_options& options)
 {
-    queue q(options.device.empty() ? choose_device({}) : find_device(options.device, {}, "--device "));
+    queue q(options.device.empty() ? find_device() : impl::find_device(options.device, {}, "--device "));
     if (options.real.empty())
     {
         build_named(q);

@@ -21,7 +21,7 @@ std::string kind(const device& d)
 
 exit_code list_devices()
 {
-    const device best = choose_device(); // throws with the whole list if there is none
+    const device best = find_device(); // throws with the whole list if there is none
     text_table table;
     table.add({"", "#", "kind", "units", "memory", "fp64", "OpenCL"});
     const auto all = devices();

@@ -71,7 +71,8 @@ queue own_queue(const dist::impl::communicator& all, const std::string& device)
     const auto here = dist::impl::rank_on_machine(all);
     std::optional<queue> q;
     all.together(
-        [&] { q = device.empty() ? dist::impl::open_own_queue(here) : queue(find_device(device, {}, "--device ")); });
+        [&]
+        { q = device.empty() ? dist::impl::open_own_queue(here) : queue(impl::find_device(device, {}, "--device ")); });
     return *q;
 }
 

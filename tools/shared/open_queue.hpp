@@ -14,7 +14,7 @@ namespace taut::tools
 inline queue open_queue(const std::string& device, bool need_double)
 {
     const device_requirements needs{.fp64 = need_double};
-    const auto chosen = device.empty() ? choose_device(needs) : find_device(device, needs, "--device ");
+    const auto chosen = device.empty() ? find_device(needs) : impl::find_device(device, needs, "--device ");
     require_own_kernels(chosen);
     return queue(chosen, {.build_elsewhere = build_elsewhere(chosen, device)});
 }

@@ -10,7 +10,7 @@ repaired_surface repair(const io::surface_soup& soup, std::optional<double> weld
 {
     const auto polygons = soup.faces.of_triangles();
     return repair_surface(soup.points, soup.triangles,
-                          {.weld_tolerance = weld ? *weld : usual_weld_tolerance(soup.points, soup.triangles),
+                          {.weld_tolerance = weld ? *weld : repair_params::usual_tolerance(soup.points, soup.triangles),
                            .normals = soup.normals,
                            .normal_cells = soup.normal_cells,
                            .polygons = polygons});
@@ -19,7 +19,7 @@ repaired_surface repair(const io::surface_soup& soup, std::optional<double> weld
 std::string describe_near_edges(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles,
                                 std::span<const idx> bodies)
 {
-    const double within = usual_weld_tolerance(points, triangles);
+    const double within = repair_params::usual_tolerance(points, triangles);
     const std::size_t edges = impl::count_near_edges(points, triangles, within, bodies);
     if (edges == 0) return {};
     return count(edges, "open edge lies", "open edges lie") + " within " + number(within, 2) +

@@ -45,8 +45,8 @@ exit_code run(const untangle_options& options, const outputs& files, std::chrono
     if (names_surface(options.input))
         throw io::io_error(options.input, "is a surface in space, of which no element is inverted; `taut deform` moves "
                                           "one, `taut unwrap` maps it to the plane");
-    std::optional<decltype(io::impl::read_any_prob({}))> file;
-    report.seconds.read = command.clock.timed([&] { file = io::impl::read_any_prob(options.input); });
+    std::optional<decltype(io::read_prob({}))> file;
+    report.seconds.read = command.clock.timed([&] { file = io::read_prob(options.input); });
     return std::visit(
         [&]<class Element>(io::impl::prob_file<Element>& read)
         {

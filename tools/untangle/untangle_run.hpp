@@ -170,7 +170,7 @@ private:
                     result = untangle(*q, *problem_, params);
                 else
                 {
-                    auto found = untangle_refined(*q, *problem_, params);
+                    auto found = untangle(*q, *problem_, params, {});
                     result = std::move(found.result);
                     if (result.outcome != untangle_outcome::infeasible) go_on_with(std::move(found.refined));
                 }

@@ -165,7 +165,7 @@ private:
     session_result<Element> deform_split(queue& q, const volume_case<Element>& parts,
                                          const deform_params<Element>& params)
     {
-        auto found = deform_refined(q, parts.simplices(), params);
+        auto found = deform(q, parts.simplices(), params, {});
         parts_ = std::move(found.cells);
         if (!found.how.empty())
         {

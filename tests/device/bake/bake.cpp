@@ -78,7 +78,7 @@ std::pair<std::array<double, 4>, double> on_host(const two_atlases& s, const tex
                 take(glm::length(a[k] + t * d), w);
             }
     }
-    return {sample(old, uv), best};
+    return {old.sample(uv), best};
 }
 
 } // namespace
@@ -121,7 +121,7 @@ TEST_CASE("bake: a smooth texture through both atlases differs by less than its 
                      [&](std::size_t t, const vec3& w)
                      {
                          const vec2 uv = two_atlases::at(s.new_uv[t], w);
-                         const auto before = sample(old, two_atlases::at(s.old_uv[t], w)), after = sample(b.image, uv);
+                         const auto before = old.sample(two_atlases::at(s.old_uv[t], w)), after = b.image.sample(uv);
                          // Texels of the new atlas are at most 1 / 0.76 of a texel of the square.
                          const vec2 x = s.place(t, w);
                          const double rim = std::min({x.x, 1 - x.x, x.y, 1 - x.y, std::abs(x.y - 0.5)}) * 0.76 * size;
@@ -151,8 +151,8 @@ TEST_CASE("bake: a checker through both atlases differs near its edges alone")
                  [&](std::size_t t, const vec3& w)
                  {
                      if (from_edges(s.place(t, w)) < 2 * texel) return; // half a diagonal each, and the rim
-                     const double before = sample(old, two_atlases::at(s.old_uv[t], w))[0],
-                                  after = sample(b.image, two_atlases::at(s.new_uv[t], w))[0];
+                     const double before = old.sample(two_atlases::at(s.old_uv[t], w))[0],
+                                  after = b.image.sample(two_atlases::at(s.new_uv[t], w))[0];
                      ++compared;
                      differ += std::abs(before - after) > 1e-4;
                  });
@@ -166,7 +166,7 @@ TEST_CASE("bake: labels stay labels, and samples are means")
     const two_atlases s;
     const auto labels =
         s.old_texture(90, 70, 1, [](const vec2& x, int) { return std::array{7.0 + std::floor(4 * x.x) * 3}; });
-    const auto b = bake(q, labels, s.old_uv, s.new_uv, {.width = 120, .filter = texture_filter::nearest});
+    const auto b = bake(q, labels, s.old_uv, s.new_uv, {.width = 120, .filter = texture::filter::nearest});
     const std::set<float> known(labels.texels.begin(), labels.texels.end());
     CHECK(b.image.height == 70);
     for (const float x : b.image.texels) CHECK(known.count(x) == 1);
@@ -177,7 +177,7 @@ TEST_CASE("bake: labels stay labels, and samples are means")
     const auto grey = bake(q, fine, s.old_uv, s.new_uv, {.width = 32, .height = 32, .samples = 8, .gutter = 0});
     for (std::size_t n = 0; n < grey.covered.size(); ++n)
         if (grey.covered[n] == 1) CHECK(std::abs(grey.image.texels[n] - 0.5f) < 0.2f);
-    CHECK_THROWS_AS(bake(q, labels, s.old_uv, s.new_uv, {.filter = texture_filter::nearest, .samples = 2}),
+    CHECK_THROWS_AS(bake(q, labels, s.old_uv, s.new_uv, {.filter = texture::filter::nearest, .samples = 2}),
                     parameter_error);
 }
 
@@ -189,9 +189,9 @@ TEST_CASE("bake: a program of three lines")
     // [bake]
     const texture old{2, 2, 3, {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1}}; // row by row from below
     const baked_texture made = bake(q, old, old_uv, new_uv, {.width = 256, .height = 128});
-    const double seen = sample(made.image, new_uv[0][0])[0]; // red at a corner
+    const double seen = made.image.sample(new_uv[0][0])[0]; // red at a corner
     // [bake]
-    CHECK(std::abs(seen - sample(old, old_uv[0][0])[0]) < 0.05);
+    CHECK(std::abs(seen - old.sample(old_uv[0][0])[0]) < 0.05);
 }
 
 TEST_CASE("bake: gutters have the nearest texel, as wide as asked")
@@ -222,12 +222,12 @@ TEST_CASE("bake: textures repeat or end, and the new one may be any unit square"
     CHECK(compare_textures(b.image, other.image).largest < 1e-4);
     const auto none = bake(q, old, moved.old_uv, moved.new_uv);
     CHECK(std::all_of(none.covered.begin(), none.covered.end(), [](auto x) { return x == 0; }));
-    const auto ended = bake(q, old, moved.old_uv, s.new_uv, {.wrap = texture_wrap::clamp});
+    const auto ended = bake(q, old, moved.old_uv, s.new_uv, {.wrap = texture::wrap::clamp});
     for (std::size_t n = 0; n < ended.covered.size(); ++n)
         if (ended.covered[n] == 1) CHECK(std::abs(ended.image.texels[2 * n] - old.at(63, 0)[0]) < 1e-6f);
 }
 
-TEST_CASE("bake_corners: colours of vertices are linear in triangles")
+TEST_CASE("bake: colours of vertices are linear in triangles")
 {
     queue q;
     const two_atlases s;
@@ -236,20 +236,20 @@ TEST_CASE("bake_corners: colours of vertices are linear in triangles")
         for (const idx v : t)
             for (const double x : {s.flat[std::size_t(v)].x, s.flat[std::size_t(v)].y, 1.0})
                 colours.push_back(static_cast<float>(x));
-    const auto b = bake_corners(q, colours, 3, s.new_uv, {.width = 200, .height = 150});
+    const auto b = bake(q, colours, 3, s.new_uv, {.width = 200, .height = 150});
     s.for_places(3000,
                  [&](std::size_t t, const vec3& w)
                  {
                      const vec2 x = s.place(t, w);
-                     const auto value = sample(b.image, two_atlases::at(s.new_uv[t], w));
+                     const auto value = b.image.sample(two_atlases::at(s.new_uv[t], w));
                      CHECK(std::abs(value[0] - x.x) < 1.5 / (0.76 * 150));
                      CHECK(std::abs(value[1] - x.y) < 1.5 / (0.76 * 150));
                      CHECK(value[2] == doctest::Approx(1));
                  });
-    CHECK_THROWS_AS(bake_corners(q, colours, 2, s.new_uv), parameter_error);
+    CHECK_THROWS_AS(bake(q, colours, 2, s.new_uv), parameter_error);
 }
 
-TEST_CASE("bake_normals: normals point as before, in turned and mirrored charts")
+TEST_CASE("bake: normals point as before, in turned and mirrored charts")
 {
     queue q;
     const two_atlases s(12, true);
@@ -260,7 +260,7 @@ TEST_CASE("bake_normals: normals point as before, in turned and mirrored charts"
     const auto shown = [&](const texture& image, const std::vector<taut::impl::corner_tangents>& tangents,
                            std::size_t t, const vec3& w, const vec2& uv, double green)
     {
-        const auto stored = sample(image, uv);
+        const auto stored = image.sample(uv);
         const vec3 n = two_atlases::at(normals[t], w);
         const vec3 x(two_atlases::at(tangents[t], w)), y = tangents[t][0].w * glm::cross(n, x);
         return glm::normalize((2 * stored[0] - 1) * x + green * (2 * stored[1] - 1) * y + (2 * stored[2] - 1) * n);
@@ -276,7 +276,7 @@ TEST_CASE("bake_normals: normals point as before, in turned and mirrored charts"
                                            const double z = std::sqrt(1 - glm::dot(tilt, tilt));
                                            return std::array{0.5 + 0.5 * turned.x, 0.5 + 0.5 * turned.y, 0.5 + 0.5 * z};
                                        });
-        const auto b = bake_normals(q, old, {normals, from, to}, s.old_uv, s.new_uv, {.green_down = down});
+        const auto b = bake(q, old, {normals, from, to}, s.old_uv, s.new_uv, {.green_down = down});
         double worst = 0, mean = 0;
         const double green = down ? -1 : 1;
         s.for_places(5000,
@@ -292,7 +292,7 @@ TEST_CASE("bake_normals: normals point as before, in turned and mirrored charts"
         CHECK(mean < 0.005);
     }
     const texture grey{4, 4, 1, std::vector<float>(16, 0.5f)};
-    CHECK_THROWS_AS(bake_normals(q, grey, {normals, from, to}, s.old_uv, s.new_uv), parameter_error);
+    CHECK_THROWS_AS(bake(q, grey, {normals, from, to}, s.old_uv, s.new_uv), parameter_error);
 }
 
 TEST_CASE("bake: what does not fit together is refused; triangles without a place are left out")

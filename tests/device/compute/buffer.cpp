@@ -92,7 +92,7 @@ TEST_CASE("buffer: memory outlives the queue that made it")
 
 TEST_CASE("buffer: sizes beyond the device's limits are refused before the driver sees them")
 {
-    taut::queue q(taut::choose_device().with_memory(1000, 600));
+    taut::queue q(taut::find_device().with_memory(1000, 600));
     CHECK_THROWS_AS(taut::buffer<float>(q, 151), taut::device_error); // 604 bytes in one buffer
     taut::buffer<float> first(q, 150);
     CHECK_THROWS_AS(taut::buffer<float>(q, 101), taut::device_error); // 600 + 404 in all

@@ -19,7 +19,7 @@ std::string refusal_text(const taut::device_requirements& needs = {})
 {
     try
     {
-        taut::choose_device(needs);
+        taut::find_device(needs);
     }
     catch (const taut::no_device& e)
     {
@@ -34,7 +34,7 @@ TEST_CASE("devices: the list has the chosen device, which is described")
 {
     const auto all = taut::devices();
     REQUIRE(!all.empty());
-    const taut::device chosen = taut::choose_device();
+    const taut::device chosen = taut::find_device();
     bool listed = false;
     for (const auto& [d, refusal] : all) listed = listed || (d == chosen && refusal.empty());
     CHECK(listed);
@@ -55,12 +55,12 @@ TEST_CASE("devices: TAUT_DEVICE chooses by index and by a part of a name in any 
     for (std::size_t i = 0; i < all.size(); ++i)
     {
         with_variable wish("TAUT_DEVICE", std::to_string(i));
-        CHECK(taut::choose_device() == all[i].device);
+        CHECK(taut::find_device() == all[i].device);
     }
     std::string part = all[0].device.platform().substr(0, 5);
     for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     with_variable wish("TAUT_DEVICE", part);
-    CHECK(taut::choose_device().platform() == all[0].device.platform());
+    CHECK(taut::find_device().platform() == all[0].device.platform());
 }
 
 TEST_CASE("devices: a wish that nothing fulfils names the wish, every platform and device, and the remedy")
@@ -83,14 +83,14 @@ TEST_CASE("devices: requirements refuse a device with the reason")
     CHECK(contains(text, "too little memory"));
     CHECK(contains(text, taut::devices()[0].device.name()));
 
-    const taut::device weak = taut::choose_device().without_fp64();
+    const taut::device weak = taut::find_device().without_fp64();
     CHECK(taut::impl::device_refusal(weak).empty());
     CHECK(contains(taut::impl::device_refusal(weak, {.fp64 = true}), "fp64"));
 }
 
 TEST_CASE("devices: double is refused by name on a device without fp64, float works")
 {
-    taut::queue q(taut::choose_device().without_fp64());
+    taut::queue q(taut::find_device().without_fp64());
     taut::buffer<float> narrow(q, 16);
     narrow.fill(2);
     CHECK(narrow.download()[15] == 2);
@@ -113,22 +113,22 @@ TEST_CASE("devices: TAUT_FORM=gpu takes the device for a GPU, and nothing else i
     const taut::device d = taut::devices()[0].device;
     {
         with_variable form("TAUT_FORM", "gpu");
-        const taut::device rehearsed = taut::choose_device();
+        const taut::device rehearsed = taut::find_device();
         CHECK(rehearsed.is_gpu());
         CHECK(!rehearsed.is_cpu());
         CHECK(!taut::impl::quirks::wants_serial_items(rehearsed));
     }
     {
         with_variable form("TAUT_FORM", "");
-        CHECK(taut::choose_device().is_cpu() == d.is_cpu());
+        CHECK(taut::find_device().is_cpu() == d.is_cpu());
     }
     with_variable form("TAUT_FORM", "fpga");
-    CHECK_THROWS_AS(taut::choose_device(), taut::parameter_error);
+    CHECK_THROWS_AS(taut::find_device(), taut::parameter_error);
 }
 
 TEST_CASE("devices: a platform is PoCL or Oclgrind, not both")
 {
-    const taut::device d = taut::choose_device();
+    const taut::device d = taut::find_device();
     CHECK(!(taut::impl::quirks::is_pocl(d) && taut::impl::quirks::is_oclgrind(d)));
 }
 

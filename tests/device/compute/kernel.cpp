@@ -81,7 +81,7 @@ TEST_CASE("kernel: quick builds leave optimisations out, and results as they are
         return program.get_program().get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS,
                                                                  boost::compute::device(q.device().native()));
     };
-    taut::queue full, quick(taut::choose_device(), {.quick_builds = true});
+    taut::queue full, quick(taut::find_device(), {.quick_builds = true});
     CHECK(options_of(full).find("-cl-opt-disable") == std::string::npos);
     CHECK(options_of(quick).find("-cl-opt-disable") != std::string::npos);
     const taut::test::with_variable wish("TAUT_BUILD", "quick");
@@ -127,7 +127,7 @@ TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built h
         told.push_back(options);
         return works ? taut::impl::build_under_way([&] { return ++asked < 3; }) : taut::impl::build_under_way();
     };
-    taut::queue q(taut::choose_device(), {.build_elsewhere = elsewhere});
+    taut::queue q(taut::find_device(), {.build_elsewhere = elsewhere});
     const auto right = [&](const std::string& options)
     {
         const auto add_to = q.kernel<taut::buffer<float>, float>(text, "add_to", options);
@@ -167,7 +167,7 @@ TEST_CASE("kernel: kernels that are compiled elsewhere are told once and waited 
         told.insert(told.end(), kernels.begin(), kernels.end());
         return [&] { return ++asked < 3; };
     };
-    taut::queue q(taut::choose_device(), {.build_elsewhere = elsewhere});
+    taut::queue q(taut::find_device(), {.build_elsewhere = elsewhere});
     const taut::kernel one(q, text, "one", "-DA");
     for (int time = 0; time < 2; ++time) q.state()->cache.share(text, "-DA", {"two"});
     CHECK(told == std::vector<std::string>{"two"});
@@ -183,7 +183,7 @@ TEST_CASE("kernel: kernels that are compiled elsewhere are told once and waited 
     CHECK(y.download() == std::vector<float>(64, 5));
     CHECK(q.counters().builds == 1);
 
-    taut::queue quick(taut::choose_device(), {.quick_builds = true, .build_elsewhere = elsewhere});
+    taut::queue quick(taut::find_device(), {.quick_builds = true, .build_elsewhere = elsewhere});
     taut::kernel(quick, text, "one", "-DA");
     quick.state()->cache.share(text, "-DA", {"two"});
     CHECK(told.size() == 1);
@@ -242,7 +242,7 @@ TEST_CASE("kernel: wrong names, argument counts and types are refused in words")
     CHECK_THROWS_AS(q.kernel<float>(axpy, "absent"), taut::device_error);
     CHECK_THROWS_AS(q.kernel<float>(axpy, "axpy"), taut::device_error);
 
-    taut::queue weak(taut::choose_device().without_fp64());
+    taut::queue weak(taut::find_device().without_fp64());
     try
     {
         weak.kernel<double, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy");
@@ -320,7 +320,7 @@ TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
             q, type == taut::scalar_type::f32 ? taut::scalar_type::f64 : taut::scalar_type::f32, 64);
         CHECK_THROWS_AS(k(64, {{"factor", 0.1}, {"x", other}}), taut::parameter_error);
     }
-    taut::queue weak(taut::choose_device().without_fp64());
+    taut::queue weak(taut::find_device().without_fp64());
     CHECK_THROWS_AS(taut::kernel(weak, source, "scale", "-DREAL=double", taut::scalar_type::f64), taut::device_error);
 }
 

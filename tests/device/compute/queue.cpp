@@ -116,7 +116,7 @@ TEST_CASE("queue: a child that fork() has made is told that it cannot go on with
 
 TEST_CASE("queue: a user's context and command queue are adopted and keep working afterwards")
 {
-    const cl_device_id id = taut::choose_device().native();
+    const cl_device_id id = taut::find_device().native();
     cl_int code = 0;
     const cl_context context = clCreateContext(nullptr, 1, &id, nullptr, nullptr, &code);
     REQUIRE(code == CL_SUCCESS);
@@ -139,7 +139,7 @@ TEST_CASE("queue: a user's context and command queue are adopted and keep workin
 
 TEST_CASE("queue: an out-of-order command queue is refused, since commands rely on their order")
 {
-    const cl_device_id id = taut::choose_device().native();
+    const cl_device_id id = taut::find_device().native();
     cl_int code = 0;
     const cl_context context = clCreateContext(nullptr, 1, &id, nullptr, nullptr, &code);
     const cl_command_queue commands = clCreateCommandQueue(context, id, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, &code);
@@ -179,7 +179,7 @@ TEST_CASE("queue: counters tell launches, waits, bytes and builds")
 
 TEST_CASE("queue: events complete, and tell the time where the queue profiles")
 {
-    taut::queue q(taut::choose_device(), {.profiling = true});
+    taut::queue q(taut::find_device(), {.profiling = true});
     taut::buffer<float> x(q, std::vector<float>(64, 1.0f));
     const taut::event e = q.kernel<taut::buffer<float>>(twice, "twice")(64, x);
     e.wait();

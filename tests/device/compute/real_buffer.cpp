@@ -139,7 +139,7 @@ TEST_CASE("real_buffer: a copy between float and double is refused, and so are t
 
 TEST_CASE("real_buffer: float works on a device without fp64, double is refused")
 {
-    taut::queue q(taut::choose_device().without_fp64());
+    taut::queue q(taut::find_device().without_fp64());
     const real_buffer narrow(q, scalar_type::f32, std::vector<double>{1.5, 2});
     CHECK(narrow.download() == std::vector<double>{1.5, 2});
     CHECK_THROWS_AS(real_buffer(q, scalar_type::f64, 2), taut::device_error);

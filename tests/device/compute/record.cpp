@@ -167,7 +167,7 @@ TEST_CASE("trace: a buffer that is written must not be bound twice")
 
 TEST_CASE("trace: double is refused on a device without fp64, also where it is only inside")
 {
-    taut::queue q(taut::choose_device().without_fp64());
+    taut::queue q(taut::find_device().without_fp64());
     CHECK_THROWS_AS(taut::trace<taut::inout<double>>(q, "wide", [](auto i, auto x) { x[i] *= 2; }), taut::device_error);
     CHECK_THROWS_AS(taut::trace<taut::inout<float>>(
                         q, "inside", [](auto i, auto x) { x[i] = taut::cast<float>(sqrt(taut::cast<double>(x[i]))); }),

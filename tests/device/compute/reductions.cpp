@@ -249,7 +249,7 @@ TEST_CASE("reductions: float sums keep double accuracy")
 
 TEST_CASE("reductions: float works on a device without fp64, to float accuracy")
 {
-    taut::queue q(taut::choose_device().without_fp64());
+    taut::queue q(taut::find_device().without_fp64());
     const std::size_t n = sized_count(100000, 5000);
     const auto host = random_values<float>(n, 8);
     const buffer<float> x(q, host);

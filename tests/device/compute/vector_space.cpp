@@ -157,7 +157,7 @@ TEST_CASE_TEMPLATE("device_vectors: a step from double positions keeps their pre
 
 TEST_CASE("device_vectors: float positions step on a device without fp64")
 {
-    taut::queue q(taut::choose_device().without_fp64());
+    taut::queue q(taut::find_device().without_fp64());
     const device_vectors space(q, scalar_type::f32, 10);
     auto x = space.make(), d = space.make();
     d.upload(std::vector<double>(10, 2.0));

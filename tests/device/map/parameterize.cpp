@@ -284,7 +284,7 @@ TEST_CASE("parameterize: an energy without a barrier folds nothing; what cannot 
 
 TEST_CASE("parameterize: without double precision the start survives what float cannot hold")
 {
-    queue q(choose_device().without_fp64());
+    queue q(find_device().without_fp64());
     const auto m = dome();
     for (const auto method : methods)
     {

@@ -16,7 +16,7 @@ void check_mended(const untangle_problem<Element>& problem)
 {
     queue q(test::shared_context());
     REQUIRE(untangle(q, problem).outcome == untangle_outcome::infeasible);
-    const auto [result, refined] = untangle_refined(q, problem);
+    const auto [result, refined] = untangle(q, problem, {}, {});
     REQUIRE(result);
     test::check_typed(refined.problem, result);
     CHECK(!refined.how.empty());
@@ -26,19 +26,19 @@ void check_mended(const untangle_problem<Element>& problem)
 
 } // namespace
 
-TEST_CASE("untangle_refined: what has no solution on its mesh has one where elements are split")
+TEST_CASE("untangle with refinement: what has no solution on its mesh has one where elements are split")
 {
     check_mended(test::folded_edge());
     check_mended(test::reflex_quad());
     check_mended(test::fan_in_a_u());
 }
 
-TEST_CASE("untangle_refined: where no map is found, and nothing is proved, what is left inverted is split")
+TEST_CASE("untangle with refinement: where no map is found, and nothing is proved, what is left inverted is split")
 {
     const auto problem = test::cone_in_a_u();
     REQUIRE(!find_infeasibility(problem));
     queue q(test::shared_context());
-    const auto [result, refined] = untangle_refined(q, problem, {.rounds = 1}, {.rounds = 2, .most_growth = 3});
+    const auto [result, refined] = untangle(q, problem, {.rounds = 1}, {.rounds = 2, .max_growth = 3});
     test::check_typed(refined.problem, result);
     CHECK(refined.rounds > 0);
     CHECK(refined.cells.size() <= 3 * problem.rest.cells().size());
@@ -46,35 +46,35 @@ TEST_CASE("untangle_refined: where no map is found, and nothing is proved, what 
         if (problem.held.all(v)) CHECK(result.map[v] == problem.initial[v]);
 }
 
-TEST_CASE("untangle_refined: a mesh that has a solution is not split")
+TEST_CASE("untangle with refinement: a mesh that has a solution is not split")
 {
     auto problem = test::reflex_quad();
     problem.initial[0] = vec2(0, 0);
     queue q(test::shared_context());
-    const auto r = untangle_refined(q, problem);
+    const auto r = untangle(q, problem, {}, {});
     CHECK(r.result);
     CHECK(r.refined.how.empty());
     CHECK(r.refined.cells == std::vector<taut::idx>{0, 1});
 }
 
-TEST_CASE("untangle_refined: what splits do not mend is infeasible, with the reason")
+TEST_CASE("untangle with refinement: what splits do not mend is infeasible, with the reason")
 {
     auto problem = test::folded_edge();
     for (auto& x : problem.initial) x.x = -x.x;
     queue q(test::shared_context());
-    const auto r = untangle_refined(q, problem).result;
+    const auto r = untangle(q, problem, {}, {}).result;
     CHECK(r.outcome == untangle_outcome::infeasible);
     CHECK(r.reason.find("no split inside") != std::string::npos);
 }
 
-TEST_CASE("untangle_refined: who says no is not asked again")
+TEST_CASE("untangle with refinement: who says no is not asked again")
 {
     const auto problem = test::fan_in_a_u();
     queue q(test::shared_context());
     untangle_params params;
     int asked = 0;
     params.limits.observer = [&](const progress&) { return ++asked < 0; };
-    const auto r = untangle_refined(q, problem, params).result;
+    const auto r = untangle(q, problem, params, {}).result;
     CHECK(!r);
     CHECK(asked == 1);
 }

@@ -114,10 +114,10 @@ TEST_CASE("compare_textures: the largest difference and the root of the mean squ
 TEST_CASE("sample: texels have their values at their centres, and textures repeat")
 {
     const texture image{2, 2, 1, {0, 1, 2, 3}};
-    CHECK(sample(image, {0.75, 0.25})[0] == 1);
-    CHECK(sample(image, {0.5, 0.5})[0] == 1.5);
-    CHECK(sample(image, {3.75, -0.75})[0] == 1);
-    CHECK(sample(image, {0.0, 0.25})[0] == 0.5);
-    CHECK(sample(image, {0.0, 0.25}, texture_filter::bilinear, texture_wrap::clamp)[0] == 0);
-    CHECK(sample(image, {0.6, 0.9}, texture_filter::nearest)[0] == 3);
+    CHECK(image.sample({0.75, 0.25})[0] == 1);
+    CHECK(image.sample({0.5, 0.5})[0] == 1.5);
+    CHECK(image.sample({3.75, -0.75})[0] == 1);
+    CHECK(image.sample({0.0, 0.25})[0] == 0.5);
+    CHECK(image.sample({0.0, 0.25}, texture::filter::bilinear, texture::wrap::clamp)[0] == 0);
+    CHECK(image.sample({0.6, 0.9}, texture::filter::nearest)[0] == 3);
 }

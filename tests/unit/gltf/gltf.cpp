@@ -343,7 +343,7 @@ TEST_CASE("gltf: fractions of unsigned shorts come back as they were")
     uv[0][1] = {0, 1};
     uv[0][2] = {13 / 255.0, 2}; // of bytes; beyond the square
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, uv, 0, io::gltf_numbers::fractions);
+    io::write_gltf(folder / "out.glb", model, uv, 0, io::gltf_model::numbers::fractions);
     const auto back = io::read_gltf(folder / "out.glb");
     const auto at = [&](std::size_t k) { return back.texcoords[static_cast<std::size_t>(back.texcoord_cells[0][k])]; };
     CHECK(at(0) == uv[0][0]);
@@ -352,7 +352,7 @@ TEST_CASE("gltf: fractions of unsigned shorts come back as they were")
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(back.texcoords[static_cast<std::size_t>(back.texcoord_cells[t][k])] ==
-                  io::texcoord_in_gltf(uv[t][k], io::gltf_numbers::fractions));
+                  io::texcoord_in_gltf(uv[t][k], io::gltf_model::numbers::fractions));
     const auto a =
         back.source.document["accessors"][*io::impl::primitives_of(back.source).all[0].attribute("TEXCOORD_0")];
     CHECK(a["componentType"] == 5123);

@@ -69,12 +69,12 @@ TEST_CASE("problem files: tetrahedra are told from triangles")
     const std::string text = "4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n4 3\n0 0 0\n1 0 0\n0 1 0\n0 0 -1\n1 4\n0 1 2 3\n1\n2\n";
     folder.write(folder / "a.prob", square_problem);
     folder.write(folder / "b.prob", text);
-    CHECK(std::holds_alternative<io::impl::prob_file<triangle>>(io::impl::read_any_prob(folder / "a.prob")));
-    const auto b = io::impl::read_any_prob(folder / "b.prob");
+    CHECK(std::holds_alternative<io::impl::prob_file<triangle>>(io::read_prob(folder / "a.prob")));
+    const auto b = io::read_prob(folder / "b.prob");
     REQUIRE(std::holds_alternative<io::impl::prob_file<tetrahedron>>(b));
     CHECK(std::get<1>(b).initial[3] == vec3(0, 0, -1));
-    CHECK_THROWS_AS(io::read_prob<triangle>(folder / "b.prob"), io::io_error);
-    CHECK_THROWS_AS(io::read_prob<triangle>(folder / "none.prob"), io::io_error);
+    CHECK_THROWS_AS(io::impl::parse_prob<triangle>(text), io::io_error);
+    CHECK_THROWS_AS(io::read_prob(folder / "none.prob"), io::io_error);
 }
 
 TEST_CASE("problem files: whatever is malformed is refused with its line")

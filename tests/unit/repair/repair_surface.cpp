@@ -341,26 +341,28 @@ TEST_CASE(
             auto s = apart(m);
             for (vec3& p : s.points)
                 for (int k = 0; k < 3; ++k) p[k] = in_digits(50 * p[k] + centre[k], digits, random, 1);
-            const auto r = repair(s, {.weld_tolerance = usual_weld_tolerance(s.points, s.cells)});
+            const auto r = repair(s, {.weld_tolerance = repair_params::usual_tolerance(s.points, s.cells)});
             INFO(digits, " digits at ", centre.x);
             CHECK(closed(r.surface));
             CHECK(r.surface.vertex_count() == m.vertex_count());
-            CHECK(count_near_edges(s.points, s.cells, usual_weld_tolerance(s.points, s.cells)) == s.points.size());
+            CHECK(count_near_edges(s.points, s.cells, repair_params::usual_tolerance(s.points, s.cells)) ==
+                  s.points.size());
         }
     auto s = apart(m);
     for (vec3& p : s.points)
         for (int k = 0; k < 3; ++k)
             p[k] = static_cast<double>(std::nextafter(static_cast<float>(p[k] + 5), random() % 2 ? 0.0f : 9.0f));
-    CHECK(closed(repair(s, {.weld_tolerance = usual_weld_tolerance(s.points, s.cells)}).surface));
-    CHECK(usual_weld_tolerance(raw(m).points, raw(m).cells) == doctest::Approx(2e-7 * std::sqrt(3.0)).epsilon(0.2));
+    CHECK(closed(repair(s, {.weld_tolerance = repair_params::usual_tolerance(s.points, s.cells)}).surface));
+    CHECK(repair_params::usual_tolerance(raw(m).points, raw(m).cells) ==
+          doctest::Approx(2e-7 * std::sqrt(3.0)).epsilon(0.2));
     CHECK(count_near_edges(m.points(), m.cells(), 1e-3) == 0);
-    CHECK(usual_weld_tolerance({}, {}) == 0);
+    CHECK(repair_params::usual_tolerance({}, {}) == 0);
     for (const double scale : {1e-200, 1e200, 1e308})
     {
         auto scaled = raw(m);
         for (vec3& p : scaled.points) p *= scale;
-        CHECK(usual_weld_tolerance(scaled.points, scaled.cells) > 0);
-        CHECK(usual_weld_tolerance(scaled.points, scaled.cells) < 1e-3 * scale);
+        CHECK(repair_params::usual_tolerance(scaled.points, scaled.cells) > 0);
+        CHECK(repair_params::usual_tolerance(scaled.points, scaled.cells) < 1e-3 * scale);
     }
 }
 

@@ -62,9 +62,9 @@ TEST_CASE("refine_infeasible: what a pinned boundary proves by itself is an obst
 
     const auto some = test::folded_edge();
     CHECK(refine_infeasible(some, {.rounds = 0}).obstacle.find("0 rounds") != std::string::npos);
-    CHECK(refine_infeasible(some, {.most_growth = 1.5}).obstacle.find("1.5 times") != std::string::npos);
+    CHECK(refine_infeasible(some, {.max_growth = 1.5}).obstacle.find("1.5 times") != std::string::npos);
     CHECK_THROWS_AS(refine_infeasible(some, {.rounds = -1}), parameter_error);
-    CHECK_THROWS_AS(refine_infeasible(some, {.most_growth = 0.5}), parameter_error);
+    CHECK_THROWS_AS(refine_infeasible(some, {.max_growth = 0.5}), parameter_error);
 
     auto corners = some;
     corners.owners.assign(corners.rest.cells().size(), 0);

@@ -34,8 +34,8 @@ baked_texture bake(queue& q, const texture& old, std::span<const std::array<vec2
 
 /// The same for numbers at the corners of triangles, such as colours of vertices, linear in each triangle.
 /// values: `channels` numbers (1 to 4) per corner, three corners per triangle
-baked_texture bake_corners(queue& q, std::span<const float> values, idx channels,
-                           std::span<const std::array<vec2, 3>> to, const bake_params& params = {});
+baked_texture bake(queue& q, std::span<const float> values, idx channels, std::span<const std::array<vec2, 3>> to,
+                   const bake_params& params = {});
 
 } // namespace taut
 
@@ -56,9 +56,9 @@ namespace taut
 
 /// The same for normals in tangent space: three channels (and alpha), (x + 1) / 2 of each coordinate along tangent,
 /// bitangent and normal. They are turned from the tangents of the old atlas to those of the new one.
-baked_texture bake_normals(queue& q, const texture& old, const impl::bake_frames& frames,
-                           std::span<const std::array<vec2, 3>> from, std::span<const std::array<vec2, 3>> to,
-                           const bake_params& params = {});
+baked_texture bake(queue& q, const texture& old, const impl::bake_frames& frames,
+                   std::span<const std::array<vec2, 3>> from, std::span<const std::array<vec2, 3>> to,
+                   const bake_params& params = {});
 
 } // namespace taut
 

@@ -59,13 +59,13 @@ inline void require_told_apart(const std::array<vec2, 3>& in_texels, std::size_t
 }
 
 /// Places in the old texture, in its texels, near the unit square where it repeats: floats are finest there.
-inline std::vector<float> old_places(const bake_source& s, texture_wrap wrap)
+inline std::vector<float> old_places(const bake_source& s, texture::wrap wrap)
 {
     std::vector<std::array<vec2, 3>> places(s.from.begin(), s.from.end());
     for (auto& t : places)
     {
         vec2 shift = glm::floor(glm::min(t[0], glm::min(t[1], t[2])));
-        if (wrap == texture_wrap::clamp || !all_finite(t)) shift = vec2(0.0);
+        if (wrap == texture::wrap::clamp || !all_finite(t)) shift = vec2(0.0);
         for (vec2& x : t) x = (x - shift) * vec2(s.old->width, s.old->height);
         if (all_finite(t)) require_told_apart(t, static_cast<std::size_t>(&t - places.data()));
     }
@@ -152,7 +152,7 @@ inline std::vector<std::array<vec2, 3>> new_places(const bake_source& s, std::sp
 struct bake_buffers
 {
     bake_buffers(queue& q, const bake_source& s, std::span<const std::array<vec2, 3>> places, const csr& tiles,
-                 texture_wrap wrap)
+                 texture::wrap wrap)
         : starts(buffer_of(q, tiles.offsets)),
           items(buffer_of(q, tiles.items)),
           uv(buffer_of(q, places_in_texels(places))),
@@ -210,8 +210,8 @@ inline baked_texture bake_any(queue& q, const bake_source& s, std::span<const st
                                       {"old_texels", on.old_texels},
                                       {"old_width", s.old ? s.old->width : 1},
                                       {"old_height", s.old ? s.old->height : 1},
-                                      {"nearest", idx(params.filter == texture_filter::nearest)},
-                                      {"repeat", idx(params.wrap == texture_wrap::repeat)},
+                                      {"nearest", idx(params.filter == texture::filter::nearest)},
+                                      {"repeat", idx(params.wrap == texture::wrap::repeat)},
                                       {"values", on.values},
                                       {"normals", on.normals},
                                       {"old_tangents", on.old_tangents},
@@ -240,15 +240,15 @@ baked_texture bake(queue& q, const texture& old, std::span<const std::array<vec2
     return impl::bake_any(q, {.old = &old, .from = from}, to, params);
 }
 
-baked_texture bake_corners(queue& q, std::span<const float> values, idx channels,
-                           std::span<const std::array<vec2, 3>> to, const bake_params& params)
+baked_texture bake(queue& q, std::span<const float> values, idx channels, std::span<const std::array<vec2, 3>> to,
+                   const bake_params& params)
 {
     return impl::bake_any(q, {.values = values, .channels = channels}, to, params);
 }
 
-baked_texture bake_normals(queue& q, const texture& old, const impl::bake_frames& frames,
-                           std::span<const std::array<vec2, 3>> from, std::span<const std::array<vec2, 3>> to,
-                           const bake_params& params)
+baked_texture bake(queue& q, const texture& old, const impl::bake_frames& frames,
+                   std::span<const std::array<vec2, 3>> from, std::span<const std::array<vec2, 3>> to,
+                   const bake_params& params)
 {
     return impl::bake_any(q, {.old = &old, .from = from, .frames = &frames}, to, params);
 }

@@ -19,6 +19,20 @@ namespace taut
 /// their top row first.
 struct texture
 {
+    /// Interpolation between texels.
+    enum class filter
+    {
+        bilinear, ///< of the four texels around
+        nearest   ///< the texel that the place is in: for numbers that are labels
+    };
+
+    /// Continuation of a texture beyond the unit square.
+    enum class wrap
+    {
+        repeat,
+        clamp ///< the texel of the border
+    };
+
     idx width = 0, height = 0, channels = 0;
     std::vector<float> texels; ///< row by row, the channels of a texel one after the other
 
@@ -46,51 +60,36 @@ struct texture
                (static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)) *
                    static_cast<std::size_t>(channels);
     }
-};
 
-/// Interpolation between texels.
-enum class texture_filter
-{
-    bilinear, ///< of the four texels around
-    nearest   ///< the texel that the place is in: for numbers that are labels
-};
-
-/// Continuation of a texture beyond the unit square.
-enum class texture_wrap
-{
-    repeat,
-    clamp ///< the texel of the border
-};
-
-/// The value of a texture at a place: unused channels are 0. The reference of what devices compute.
-inline std::array<double, 4> sample(const texture& image, vec2 uv, texture_filter filter = texture_filter::bilinear,
-                                    texture_wrap wrap = texture_wrap::repeat)
-{
-    const auto wrapped = [wrap](double x, idx size)
+    /// Value of the texture at a place: unused channels are 0. The reference of what devices compute.
+    std::array<double, 4> sample(vec2 uv, filter by = filter::bilinear, wrap beyond = wrap::repeat) const
     {
-        const double n = static_cast<double>(size);
-        if (wrap == texture_wrap::repeat) x -= n * std::floor(x / n);
-        return static_cast<idx>(std::clamp(x, 0.0, n - 1));
-    };
-    std::array<double, 4> value{};
-    const auto add = [&](double x, double y, double weight)
-    {
-        const float* const texel = image.at(wrapped(x, image.width), wrapped(y, image.height));
-        for (idx c = 0; c < image.channels; ++c)
-            value[static_cast<std::size_t>(c)] += weight * static_cast<double>(texel[c]);
-    };
-    const double x = uv.x * image.width, y = uv.y * image.height;
-    if (filter == texture_filter::nearest)
-    {
-        add(std::floor(x), std::floor(y), 1);
+        const auto wrapped = [beyond](double x, idx size)
+        {
+            const double n = static_cast<double>(size);
+            if (beyond == wrap::repeat) x -= n * std::floor(x / n);
+            return static_cast<idx>(std::clamp(x, 0.0, n - 1));
+        };
+        std::array<double, 4> value{};
+        const auto add = [&](double x, double y, double weight)
+        {
+            const float* const texel = at(wrapped(x, width), wrapped(y, height));
+            for (idx c = 0; c < channels; ++c)
+                value[static_cast<std::size_t>(c)] += weight * static_cast<double>(texel[c]);
+        };
+        const double x = uv.x * width, y = uv.y * height;
+        if (by == filter::nearest)
+        {
+            add(std::floor(x), std::floor(y), 1);
+            return value;
+        }
+        const double i = std::floor(x - 0.5), j = std::floor(y - 0.5), s = x - 0.5 - i, t = y - 0.5 - j;
+        add(i, j, (1 - s) * (1 - t));
+        add(i + 1, j, s * (1 - t));
+        add(i, j + 1, (1 - s) * t);
+        add(i + 1, j + 1, s * t);
         return value;
     }
-    const double i = std::floor(x - 0.5), j = std::floor(y - 0.5), s = x - 0.5 - i, t = y - 0.5 - j;
-    add(i, j, (1 - s) * (1 - t));
-    add(i + 1, j, s * (1 - t));
-    add(i, j + 1, (1 - s) * t);
-    add(i + 1, j + 1, s * t);
-    return value;
-}
+};
 
 } // namespace taut

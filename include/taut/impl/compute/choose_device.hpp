@@ -33,6 +33,9 @@ struct listed_device
 /// Why d does not meet the needs, in words; empty if it does.
 std::string device_refusal(const device& d, const device_requirements& needs = {});
 
+/// find_device(), of a wish that the message of no_device calls `said` and the wish: "--device Tesla".
+device find_device(const std::string& wish, const device_requirements& needs, const std::string& said);
+
 } // namespace taut::impl
 
 namespace taut
@@ -43,13 +46,11 @@ std::vector<impl::listed_device> devices(const device_requirements& needs = {});
 
 /// The device that a wish names: an index into devices(), or a part of a device's, vendor's or platform's name, in any
 /// case. Of several that fit, and for an empty wish, the best one: double precision before none, then GPU before CPU,
-/// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits; what the message then
-/// calls the wish is `said` and the wish.
-device find_device(const std::string& wish, const device_requirements& needs = {},
-                   const std::string& said = "the wish ");
+/// then the largest. With TAUT_FORM=gpu it is taken for a GPU. Throws no_device if none fits.
+device find_device(const std::string& wish, const device_requirements& needs = {});
 
-/// The device that TAUT_DEVICE names if it is set, else the best one; see find_device.
-device choose_device(const device_requirements& needs = {});
+/// The device that TAUT_DEVICE names if it is set, else the best one.
+device find_device(const device_requirements& needs = {});
 
 } // namespace taut
 

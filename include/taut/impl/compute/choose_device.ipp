@@ -49,7 +49,7 @@ std::vector<impl::listed_device> devices(const device_requirements& needs)
         }
         catch (const boost::compute::opencl_error&)
         {
-            // A platform without a device answers with an error; choose_device lists it by name.
+            // A platform without a device answers with an error; find_device lists it by name.
         }
         for (const auto& handle : found)
         {
@@ -124,11 +124,6 @@ inline device in_wanted_form(const device& d)
                            "intel-opencl-icd or mesa-opencl-icd; `clinfo -l` lists what is seen");
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 device find_device(const std::string& wish, const device_requirements& needs, const std::string& said)
 {
     const auto all = devices(needs);
@@ -149,10 +144,20 @@ device find_device(const std::string& wish, const device_requirements& needs, co
     impl::refuse("no OpenCL device fits" + (wanted.empty() ? "" : ' ' + said + wish), all);
 }
 
-device choose_device(const device_requirements& needs)
+} // namespace taut::impl
+
+namespace taut
+{
+
+device find_device(const std::string& wish, const device_requirements& needs)
+{
+    return impl::find_device(wish, needs, "the wish ");
+}
+
+device find_device(const device_requirements& needs)
 {
     const char* wish = std::getenv("TAUT_DEVICE");
-    return find_device(wish ? wish : "", needs, "TAUT_DEVICE=");
+    return impl::find_device(wish ? wish : "", needs, "TAUT_DEVICE=");
 }
 
 } // namespace taut

@@ -58,7 +58,7 @@ class queue
 {
 public:
     /// Opens a queue on the best device, or the one that TAUT_DEVICE names. Throws no_device.
-    queue() : queue(choose_device()) {}
+    queue() : queue(find_device()) {}
 
     explicit queue(const taut::device& device, queue_options options = {});
 

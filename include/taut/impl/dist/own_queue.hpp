@@ -37,7 +37,7 @@ inline local_rank rank_on_machine(const communicator& all)
 /// that are like it. Throws no_device.
 inline queue open_own_queue(const local_rank& here)
 {
-    const device best = choose_device();
+    const device best = find_device();
     const char* wish = std::getenv("TAUT_DEVICE");
     if ((wish && *wish) || !best.is_gpu()) return queue(best);
     std::vector<device> like;

@@ -26,6 +26,13 @@ namespace taut::io
 /// are left out, and so are primitives that draw the same triangles as an earlier one.
 struct gltf_model
 {
+    /// Number format of written texture coordinates.
+    enum class numbers
+    {
+        floats,
+        fractions ///< multiples of 1/65535, from 0 to 1: unsigned shorts, normalized
+    };
+
     std::vector<vec3> points; ///< those that triangles name, in the order of first appearance; may be not finite
     std::vector<std::array<idx, 3>> triangles; ///< vertex indices into points; may name one twice, or have no area
     std::vector<std::array<idx, 3>> vertices;  ///< the vertex of glTF at each corner: those that share attributes are
@@ -71,16 +78,9 @@ namespace taut::io
 /// that have no area in floats all the same. Throws mesh_error (empty).
 gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
 
-/// Number format of written texture coordinates.
-enum class gltf_numbers
-{
-    floats,
-    fractions ///< multiples of 1/65535, from 0 to 1: unsigned shorts, normalized
-};
-
 /// Rounds texture coordinates to the numbers of a glTF file, which are read back bit for bit. Certify these rather than
 /// the unrounded ones.
-vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers = gltf_numbers::floats);
+vec2 texcoord_in_gltf(vec2 uv, gltf_model::numbers numbers = gltf_model::numbers::floats);
 
 } // namespace taut::io
 
@@ -112,7 +112,7 @@ std::optional<std::filesystem::path> gltf_data_file(const std::filesystem::path&
 /// before it, another ending.
 std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
                                       std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
-                                      gltf_numbers numbers = gltf_numbers::floats);
+                                      gltf_model::numbers numbers = gltf_model::numbers::floats);
 
 } // namespace taut::io::impl
 
@@ -122,7 +122,7 @@ namespace taut::io
 /// Writes a model with new texture coordinates; its files appear together or not at all.
 void write_gltf(const std::filesystem::path& path, const gltf_model& model,
                 std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
-                gltf_numbers numbers = gltf_numbers::floats);
+                gltf_model::numbers numbers = gltf_model::numbers::floats);
 
 } // namespace taut::io
 

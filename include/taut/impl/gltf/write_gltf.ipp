@@ -32,12 +32,13 @@ namespace taut::io::impl
 class gltf_writer
 {
 public:
-    gltf_writer(const gltf_model& model, std::span<const std::array<vec2, 3>> corner_uv, int set, gltf_numbers numbers)
+    gltf_writer(const gltf_model& model, std::span<const std::array<vec2, 3>> corner_uv, int set,
+                gltf_model::numbers numbers)
         : source_(model.source),
           primitives_(primitives_of(model.source)),
           edit_(model.source),
           set_("TEXCOORD_" + std::to_string(set)),
-          type_(numbers == gltf_numbers::floats ? gltf_f32 : gltf_u16)
+          type_(numbers == gltf_model::numbers::floats ? gltf_f32 : gltf_u16)
     {
         if (corner_uv.size() != model.triangles.size() || corner_uv.size() != primitives_.triangles)
             throw parameter_error("corner_uv", std::to_string(corner_uv.size()) + " for " +
@@ -199,9 +200,9 @@ inline file_to_write file_of(const std::filesystem::path& path, std::string byte
 namespace taut::io
 {
 
-vec2 texcoord_in_gltf(vec2 uv, gltf_numbers numbers)
+vec2 texcoord_in_gltf(vec2 uv, gltf_model::numbers numbers)
 {
-    if (numbers == gltf_numbers::floats) return {taut::impl::in_single(uv.x), taut::impl::in_single(uv.y)};
+    if (numbers == gltf_model::numbers::floats) return {taut::impl::in_single(uv.x), taut::impl::in_single(uv.y)};
     const auto fraction = [](double x) { return std::round(std::clamp(x, 0.0, 1.0) * 65535) / 65535; };
     return {fraction(uv.x), fraction(uv.y)};
 }
@@ -257,7 +258,7 @@ inline std::vector<file_to_write> files_of_document(const std::filesystem::path&
 
 std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const gltf_model& model,
                                       std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set,
-                                      gltf_numbers numbers)
+                                      gltf_model::numbers numbers)
 {
     const auto data = impl::gltf_data_file(path, model.source);
     auto [document, bytes] = impl::gltf_writer(model, corner_uv, texcoord_set, numbers).write();
@@ -270,7 +271,7 @@ namespace taut::io
 {
 
 void write_gltf(const std::filesystem::path& path, const gltf_model& model,
-                std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set, gltf_numbers numbers)
+                std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set, gltf_model::numbers numbers)
 {
     write_files(impl::gltf_files(path, model, corner_uv, texcoord_set, numbers));
 }

@@ -214,26 +214,16 @@ prob_file<Element> parse_prob(std::string_view text, const std::string& path = "
 namespace taut::io
 {
 
-/// Reads an untangling problem. Throws io_error with the line: unreadable or malformed.
-template <class Element>
-impl::prob_file<Element> read_prob(const std::filesystem::path& path)
+/// Reads an untangling problem, of triangles or of tetrahedra, whichever the file holds. Throws io_error with the line:
+/// unreadable or malformed.
+inline std::variant<impl::prob_file<triangle>, impl::prob_file<tetrahedron>>
+read_prob(const std::filesystem::path& path)
 {
-    return impl::parse_prob<Element>(impl::read_file(path), path.string());
-}
-
-} // namespace taut::io
-
-namespace taut::io::impl
-{
-
-/// A problem of triangles or of tetrahedra, whichever the file holds.
-inline std::variant<prob_file<triangle>, prob_file<tetrahedron>> read_any_prob(const std::filesystem::path& path)
-{
-    const std::string text = read_file(path);
+    const std::string text = impl::read_file(path);
     impl::prob_reader reader(text, path.string());
     reader.read_rest();
     if (reader.map_dimension() == 2) return reader.read_map<triangle>();
     return reader.read_map<tetrahedron>();
 }
 
-} // namespace taut::io::impl
+} // namespace taut::io

@@ -11,7 +11,7 @@
 namespace taut::impl
 {
 
-/// Result of deform_refined(): the deformation, and the refined mesh.
+/// Result of deform() with refinement: the deformation, and the refined mesh.
 template <class Element>
 struct refined_deformation
 {
@@ -33,8 +33,8 @@ namespace taut
 /// parameter_error for params with targets, data of elements or owners, which refined elements do not have, and as
 /// deform() does.
 template <class Element>
-impl::refined_deformation<Element> deform_refined(queue& q, const mesh<Element>& m, deform_params<Element> params,
-                                                  const refine_params& refine = {})
+impl::refined_deformation<Element> deform(queue& q, const mesh<Element>& m, deform_params<Element> params,
+                                          const refine_params& refine)
 {
     if (!params.targets.empty())
         throw parameter_error("targets", "are of elements, which are to be split; leave it out");

@@ -17,7 +17,7 @@ struct repair_params
 {
     /// Weld tolerance: maximum distance of ends of open edges to be welded, to the position of the first of them; in
     /// units of the surface, 0 or more. 0: only equal coordinates. Raise it where edges that should meet agree in few
-    /// digits only, to usual_weld_tolerance(). No vertex moves by half of an edge that ends there, so that no edge
+    /// digits only, to usual_tolerance(). No vertex moves by half of an edge that ends there, so that no edge
     /// vanishes.
     double weld_tolerance = 0;
 
@@ -33,14 +33,14 @@ struct repair_params
     /// Polygon of each triangle, or none: triangles of one polygon stay together where edges are separated.
     std::span<const idx> polygons = {};
 
+    /// Weld tolerance for corners that rounding has separated: 1e-7 of the size of the surface, or eight units of the
+    /// last digit that coordinates have in the file, single precision or 6 to 12 decimal digits, if these are more; 0
+    /// if there is no finite size. At most 1e-3 of the size.
+    static double usual_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
+
     /// Throws parameter_error. points, triangles: how many the input has
     void validate(std::size_t points, std::size_t triangles) const;
 };
-
-/// Default weld tolerance, for corners that rounding has separated: 1e-7 of the size of the surface, or eight units of
-/// the last digit that coordinates have in the file, single precision or 6 to 12 decimal digits, if these are more; 0
-/// if there is no finite size. At most 1e-3 of the size.
-double usual_weld_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
 
 } // namespace taut
 

@@ -386,7 +386,7 @@ private:
 namespace taut
 {
 
-double usual_weld_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
+double repair_params::usual_tolerance(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
 {
     const auto used = impl::named_points(points, triangles);
     if (used.empty()) return 0;

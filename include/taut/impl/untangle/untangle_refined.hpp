@@ -28,13 +28,13 @@ struct refine_params
     int rounds = 8;
 
     /// Maximum ratio of elements of the refined mesh to those of the mesh. Range >= 1.
-    double most_growth = 4;
+    double max_growth = 4;
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
         if (rounds < 0) throw parameter_error("refine.rounds", "must not be negative");
-        if (!(most_growth >= 1)) throw parameter_error("refine.most_growth", "must be at least 1");
+        if (!(max_growth >= 1)) throw parameter_error("refine.max_growth", "must be at least 1");
     }
 };
 
@@ -54,7 +54,7 @@ struct refined_problem
     std::string obstacle = {};   ///< the proof that no split refutes, or which limit was met; empty: none
 };
 
-/// Result of untangle_refined(): the untangling, and the refined mesh.
+/// Result of untangle() with refinement: the untangling, and the refined mesh.
 template <class Element>
 struct refined_untangling
 {
@@ -103,7 +103,7 @@ bool split_further(refined_problem<Element>& now, const std::vector<std::vector<
     for (const auto& s : simplices) step.split(s);
     auto next = refine_problem(now.problem, step);
     const double before = static_cast<double>(now.cells.back()) + 1;
-    if (static_cast<double>(next.cells.size()) > params.most_growth * before) return false;
+    if (static_cast<double>(next.cells.size()) > params.max_growth * before) return false;
     next.how = std::move(now.how);
     for (const auto& s : simplices) next.how.split(s);
     for (idx& c : next.cells) c = now.cells[static_cast<std::size_t>(c)];
@@ -129,7 +129,7 @@ refined_problem<Element> refine_infeasible(const untangle_problem<Element>& prob
         else if (now.rounds >= params.rounds)
             now.obstacle = proof.reason() + "; so after " + std::to_string(now.rounds) + " rounds of splits";
         else if (!impl::split_further(now, splits.simplices, params))
-            now.obstacle = proof.reason() + "; splits would make more than " + impl::short_number(params.most_growth) +
+            now.obstacle = proof.reason() + "; splits would make more than " + impl::short_number(params.max_growth) +
                            " times as many elements";
         if (!now.obstacle.empty()) return now;
     }
@@ -222,8 +222,8 @@ namespace taut
 /// for all splits inside the mesh; reason says what.
 /// Throws parameter_error as untangle() and refine_problem() do, device_error.
 template <class Element>
-impl::refined_untangling<Element> untangle_refined(const queue& q, const untangle_problem<Element>& problem,
-                                                   const untangle_params& params = {}, const refine_params& refine = {})
+impl::refined_untangling<Element> untangle(const queue& q, const untangle_problem<Element>& problem,
+                                           const untangle_params& params, const refine_params& refine)
 {
     const impl::budget clock(params.limits.time_limit);
     bool refused = false;
