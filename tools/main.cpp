@@ -123,7 +123,8 @@ int usage(const CLI::App& program, const CLI::ParseError& e)
 {
     std::string name = "taut";
     for (const auto* app : program.get_subcommands()) name += ' ' + app->get_name();
-    return fail(exit_code::usage, e.what(), '`' + name + " --help` lists the options");
+    const auto wrong = wrong_words(program);
+    return fail(exit_code::usage, wrong.empty() ? e.what() : wrong, '`' + name + " --help` lists the options");
 }
 
 int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)

@@ -5,12 +5,35 @@ test_input()
 {
     expect 3 unwrap nothing.obj -o out.obj
     error_says 'nothing.obj'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n' >word.obj
     expect 3 eval nothing.obj
     error_says 'nothing.obj'
     grid 4 >in.stp
     expect 3 unwrap in.stp -o out.obj
     error_says '.obj, .off, .ply and .stl'
-    printf 'v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n' >word.obj
+    # Kinds of names, wherever one is read: no file, a folder, a file of another kind.
+    mkdir folder
+    printf 'MeshVersionFormatted 2\nDimension 2\n' >plane.mesh
+    for command in 'unwrap folder' 'atlas folder' 'smooth folder' 'deform folder' 'untangle folder' \
+                   'unwrap word.obj --pins folder'; do
+        # shellcheck disable=SC2086
+        expect 3 $command -o out.obj
+        error_says 'folder: is a folder; name a file'
+    done
+    expect 3 batch --manifest folder
+    error_says 'folder: is a folder'
+    for command in 'unwrap none.stp' 'smooth none.stp'; do
+        # shellcheck disable=SC2086
+        expect 3 $command -o out.obj
+        error_says 'none.stp: No such file'
+    done
+    expect 3 unwrap plane.mesh -o out.obj
+    error_says 'plane.mesh: a volume, or a mesh of the plane; surfaces are read from .obj'
+    expect 3 smooth word.obj -o out.obj
+    error_says 'word.obj: a surface in space; volumes are read from .mesh'
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >points.obj
+    expect 4 atlas points.obj -o out.obj
+    error_says 'points.obj: the mesh has no triangles'
     expect 3 unwrap word.obj -o out.obj
     error_says 'line 3'
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 nan\nf 1 2 3\n' >nan.obj

@@ -22,7 +22,11 @@ test_usage()
     expect 2 unwrap -o out.obj
     error_says 'IN is required'
     expect 2 unwrap in.obj -o out.obj --colour red
-    error_says '--colour'
+    error_says 'no option --colour;'
+    expect 2 unwrap in.obj --out out.obj
+    error_says 'no option --out \(did you mean --output\?\)'
+    expect 2 unwrap in.obj in.obj -o out.obj
+    error_says 'no place for in.obj'
     for option in -o '-o out.obj --pins' '-o out.obj --stats'; do # as of a variable that is not set
         expect 2 unwrap in.obj $option ''
         error_says 'the name is empty; name a file'
@@ -33,6 +37,8 @@ test_usage()
     error_says '--iterations' 'many is no whole number'
     expect 2 unwrap in.obj -o out.obj --device ''
     error_says '--device' 'without a name'
+    expect 0 smooth --help
+    says out '--zone N  ' '--worst 1..8  '
     expect 0 view --help
     says out 'exit codes: 0 ended'
     expect 2 unwrap in.obj -o out.obj --time-limit 20,5

@@ -96,11 +96,16 @@ public:
         }
         catch (const mesh_error& e)
         {
-            if (options_.repair || e.fault() == mesh_error::empty || e.fault() == mesh_error::too_large) throw;
-            std::string more = "; or let --repair repair it";
-            for (const auto& s : sources_)
-                if (!s->near_edges.empty()) more += "; " + s->near_edges;
-            throw mesh_error(e.fault(), e.ids(), e.what() + more);
+            const std::string what = e.what();
+            std::string more;
+            if (!options_.repair && e.fault() != mesh_error::empty && e.fault() != mesh_error::too_large)
+            {
+                more = "; --repair repairs it";
+                for (const auto& s : sources_)
+                    if (!s->near_edges.empty()) more += "; " + s->near_edges;
+            }
+            const bool named = options_.inputs.size() > 1 || what.starts_with(options_.inputs[0]);
+            throw mesh_error(e.fault(), e.ids(), (named ? "" : options_.inputs[0] + ": ") + what + more);
         }
         write();
         return report_.code;

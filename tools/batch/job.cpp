@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <istream>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/io/io_error.hpp>
+#include <taut/impl/io/read_file.hpp>
 
 namespace taut::tools::batch
 {
@@ -120,8 +120,7 @@ std::vector<job> parse_manifest(std::istream& in, const std::string& path)
 
 std::vector<job> read_manifest(const std::string& path)
 {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw io::io_error(path, "cannot be read; name a file that can");
+    std::istringstream in(io::impl::read_file(path));
     return parse_manifest(in, path);
 }
 

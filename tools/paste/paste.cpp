@@ -432,7 +432,7 @@ command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launc
                "Draw the result from both sides, the feature with a checkerboard");
     add_time_limit(app, options->time_limit, "Give up after S seconds");
     add_device(app, options->device);
-    app.add_flag("-q,--quiet", options->quiet, "No report");
+    app.add_flag("-q,--quiet", options->quiet, "Print errors only");
     app.footer("exit codes: 0 written; 2 usage; 3 unreadable input; 4 unsuitable input: no disk, or no place for it;\n"
                "  5 no device; 6 out of time; 9 device failure; 130 interrupted, 143 terminated");
     return [options, launch](const outputs& files) { return paste_run(*options, files, launch)(); };

@@ -31,6 +31,25 @@ std::size_t edit_distance(std::string_view from, std::string_view to)
     return row.back();
 }
 
+/// Nearest of some words to a given one: one that begins with it, or is at most two letters away; empty: none.
+std::string nearest_of(const std::vector<std::string>& words, const std::string& given)
+{
+    std::string nearest;
+    std::size_t least = 3; // of more changes, it is another word
+    for (const auto& word : words)
+    {
+        const std::size_t distance = word.starts_with(given) ? 1 : edit_distance(given, word);
+        if (distance < least) least = distance, nearest = word;
+    }
+    return nearest;
+}
+
+std::string there_is_no(const char* kind, const std::string& given, const std::string& nearest)
+{
+    return std::string("there is no ") + kind + ' ' + given +
+           (nearest.empty() ? "" : " (did you mean " + nearest + "?)");
+}
+
 } // namespace
 
 std::string wrapped_help::wrapped(std::string_view text) const
@@ -58,6 +77,28 @@ std::string wrapped_help::make_option_desc(const CLI::Option* option) const
     return wrapped(Formatter::make_option_desc(option));
 }
 
+std::string wrapped_help::make_option_opts(const CLI::Option* option) const
+{
+    std::string text = Formatter::make_option_opts(option);
+    const auto replace = [&](const std::string& from, const std::string& to)
+    {
+        if (const auto at = text.find(from); at != std::string::npos) text.replace(at, from.size(), to);
+    };
+    replace("... ...", "...");
+    replace(" Needs: ", " with ");
+    const std::string range = ":INT in [";
+    if (const auto at = text.find(range); at != std::string::npos)
+    {
+        const auto begin = at + range.size(), end = text.find(']', at);
+        std::string bounds = text.substr(begin, end - begin);
+        const bool said = at > 0 && text[at - 1] >= '0' && text[at - 1] <= '9'; // as 1..8
+        const bool any = bounds.ends_with("2147483647");
+        if (const auto dash = bounds.find(" - "); dash != std::string::npos) bounds.replace(dash, 3, " to ");
+        text.replace(at, end + 1 - at, said || any ? "" : " (" + bounds + ")");
+    }
+    return text;
+}
+
 std::string wrapped_help::make_subcommand(const CLI::App* named) const
 {
     std::ostringstream out;
@@ -65,19 +106,30 @@ std::string wrapped_help::make_subcommand(const CLI::App* named) const
     return out.str();
 }
 
+std::string wrong_words(const CLI::App& program)
+{
+    const auto parsed = program.get_subcommands();
+    if (parsed.empty()) return {};
+    const auto left = parsed.back()->remaining();
+    const auto option = std::find_if(left.begin(), left.end(), [](const auto& word) { return word.starts_with('-'); });
+    if (option == left.end())
+        return left.empty() ? "" : "there is no place for " + left.front() + "; names with spaces need quotes";
+    std::vector<std::string> names;
+    for (const auto* known : parsed.back()->get_options())
+        for (const auto& name : known->get_lnames()) names.push_back("--" + name);
+    const std::string given = option->substr(0, option->find('='));
+    return there_is_no("option", given, given.starts_with("--") ? nearest_of(names, given) : "");
+}
+
 std::string wrong_subcommand(const CLI::App& program, int argc, const char* const* argv)
 {
     if (argc < 2 || argv[1][0] == '-') return {};
     const std::string given = argv[1];
-    std::string nearest;
-    std::size_t least = 3; // of more changes, it is another word
+    std::vector<std::string> names;
     for (const auto* named : program.get_subcommands([](const CLI::App*) { return true; }))
-    {
-        const std::size_t distance = edit_distance(given, named->get_name());
-        if (distance == 0) return {};
-        if (distance < least) least = distance, nearest = named->get_name();
-    }
-    return "there is no subcommand " + given + (nearest.empty() ? "" : " (did you mean " + nearest + "?)");
+        names.push_back(named->get_name());
+    if (std::find(names.begin(), names.end(), given) != names.end()) return {};
+    return there_is_no("subcommand", given, nearest_of(names, given));
 }
 
 } // namespace taut::tools

@@ -68,7 +68,7 @@ void add_refine(CLI::App& app, bool& refine, std::string& map, const std::string
 {
     app.add_flag("--refine", refine, help);
     add_output(app, "--refined-map", map, {.extensions = {".csv"}},
-               "With --refine: write which element of the input each element is a part of, as element,of")
+               "Write which element of the input each element is a part of, as element,of")
         ->needs("--refine");
 }
 

@@ -58,16 +58,15 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
                     true);
     const auto flat_there = [&](idx c) { return std::binary_search(state.inverted.begin(), state.inverted.end(), c); };
     const auto positive = std::stable_partition(thin.begin(), thin.end(), flat_there);
-    const auto report_thin = [&](const std::vector<idx>& cells, const char* what)
+    const auto report_thin = [&](const std::vector<idx>& cells, bool wrong, const char* what)
     {
         if (!cells.empty())
-            report_mesh(report,
-                        {mesh_error::degenerate_cell, cells,
-                         list_cells(input, cells) + what + "; collapse an edge or move a vertex of each"},
-                        true);
+            report_mesh(report, {mesh_error::degenerate_cell, cells, list_cells(input, cells) + what}, wrong);
     };
-    report_thin({thin.begin(), positive}, " flat");
-    report_thin({positive, thin.end()}, " positive, but too thin to be a shape at rest");
+    report_thin({thin.begin(), positive}, true, " flat; collapse an edge or move a vertex of each");
+    // As untangling may leave them: certified, and only no shape that a deformation can start from.
+    report_thin({positive, thin.end()}, false,
+                " positive, but too thin to be a shape at rest; `taut smooth` improves shapes");
 }
 
 /// Reports the faces between cells of one kind.

@@ -75,10 +75,7 @@ class kept_directions
 public:
     static constexpr int D = Element::dimension;
 
-    kept_directions(const mesh<Element>& m, double tolerance)
-        : mesh_(m), tolerance_(tolerance), normals_(m.points().size())
-    {
-    }
+    explicit kept_directions(const mesh<Element>& m) : mesh_(m), normals_(m.points().size()) {}
 
     void add(std::span<const std::array<idx, D>> facets)
     {
@@ -197,7 +194,7 @@ private:
     }
 
     const mesh<Element>& mesh_;
-    double tolerance_;
+    static constexpr double tolerance_ = 1e-4; ///< sine of the angle up to which a boundary is flat or straight
     std::vector<span_of_normals<D>> normals_;
 };
 

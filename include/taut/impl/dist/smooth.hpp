@@ -39,9 +39,6 @@ struct smooth_params
     /// Positions to begin with, if they are not those of the mesh: one per vertex of the piece. No element is inverted.
     std::vector<vec3> initial = {};
 
-    /// Sine of the angle up to which a boundary is flat or straight.
-    double flat = 1e-4;
-
     solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
     impl::solver_params solver = {};
     std::optional<taut::queue> queue = {};
@@ -53,7 +50,6 @@ struct smooth_params
         limits.validate();
         solver.validate();
         if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
-        if (!(flat >= 0 && flat < 1)) throw parameter_error("flat", "must be in [0, 1)");
     }
 };
 

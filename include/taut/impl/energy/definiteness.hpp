@@ -15,10 +15,15 @@ enum class definiteness
     absolute    ///< without it: negative_eigenvalues::absolute
 };
 
-/// Treatment of the projected (PSD) Hessian.
-inline definiteness definite(impl::negative_eigenvalues treated)
+} // namespace taut
+
+namespace taut::impl
 {
-    return treated == impl::negative_eigenvalues::absolute ? definiteness::absolute : definiteness::projected;
+
+/// Treatment of the projected (PSD) Hessian.
+inline definiteness definite(negative_eigenvalues treated)
+{
+    return treated == negative_eigenvalues::absolute ? definiteness::absolute : definiteness::projected;
 }
 
-} // namespace taut
+} // namespace taut::impl

@@ -22,6 +22,9 @@
 namespace taut::io::impl
 {
 
+/// Of a path where a file is to be read.
+inline constexpr const char* a_folder = "is a folder; name a file";
+
 /// Null, with errno, if it cannot be opened. What is open already (/dev/stdin) is read on from where it is.
 inline open_file open_to_read(const std::filesystem::path& path)
 {
@@ -60,7 +63,7 @@ inline std::string read_file(const std::filesystem::path& path, std::uint64_t mo
                                               " MiB, the most that is read with the memory there is");
     };
     std::error_code unknown;
-    if (std::filesystem::is_directory(path, unknown)) fail(EISDIR);
+    if (std::filesystem::is_directory(path, unknown)) throw io_error(path.string(), a_folder);
     const auto file = impl::open_to_read(path);
     if (!file) fail(errno);
 

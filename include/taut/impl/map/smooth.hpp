@@ -47,9 +47,6 @@ struct smooth_params
     /// planes, straight lines where pieces meet or end along themselves; curved parts are fixed.
     std::vector<impl::kept_facet> kept = {};
 
-    /// Sine of the angle up to which a boundary is flat or straight.
-    double flat = 1e-4;
-
     taut::precision precision = precision::automatic;
     untangle_params untangling = {};
     solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
@@ -60,7 +57,6 @@ struct smooth_params
     {
         limits.validate();
         if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
-        if (!(flat >= 0 && flat < 1)) throw parameter_error("flat", "must be in [0, 1)");
     }
 };
 
@@ -163,7 +159,7 @@ std::vector<char> still_vertices(const mesh<Element>& m, const smooth_params<Ele
 template <class Element>
 void constrain_smoothing(deform_params<Element>& how, const mesh<Element>& m, const smooth_params<Element>& params)
 {
-    kept_directions<Element> directions(m, params.flat);
+    kept_directions<Element> directions(m);
     if (params.boundary == smooth_boundary::sliding) directions.add(boundary_facets(m, params.owners));
     directions.add(params.kept);
     auto motion = directions.motion();

@@ -48,7 +48,7 @@ kept_boundary<Element> boundary_of(const part<Element>& p, const smooth_params& 
     for (const auto& facet : facets)
         for (const idx v : facet) inside[static_cast<std::size_t>(v)] = 0;
     kept.on_interfaces = std::count(inside.begin(), inside.end(), 1);
-    taut::impl::kept_directions<Element> directions(m, params.flat);
+    taut::impl::kept_directions<Element> directions(m);
     if (params.boundary == smooth_boundary::sliding)
         directions.add(std::span<const std::array<idx, static_cast<std::size_t>(D)>>(facets));
     directions.add(surfaces);

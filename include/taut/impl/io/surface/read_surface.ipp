@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include <taut/impl/io/file/file_kind.hpp>
 #include <taut/impl/io/obj.hpp>
 #include <taut/impl/io/off.hpp>
 #include <taut/impl/io/ply.hpp>
@@ -30,8 +31,7 @@ inline std::string read_surface_bytes(const std::filesystem::path& path, surface
 {
     if (format == surface_format::automatic) format = format_of_name(path);
     if (format == surface_format::automatic && !is_stream_to_read(path))
-        throw io_error(path.string(), "unknown kind of file; surfaces are read from .obj, .off, .ply and .stl, from "
-                                      "other names if the format is given");
+        refuse_kind(path, "surfaces are read from .obj, .off, .ply and .stl");
     std::string text = read_file(path);
     if (!is_binary_stl(text)) refuse_utf16(text, path.string());
     if (format == surface_format::automatic) format = format_of_text(text);

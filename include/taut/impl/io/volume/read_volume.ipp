@@ -4,6 +4,7 @@
 #include <system_error>
 #include <utility>
 
+#include <taut/impl/io/file/file_kind.hpp>
 #include <taut/impl/io/read_file.hpp>
 #include <taut/impl/io/read_volume.hpp>
 #include <taut/impl/io/volume/formats.hpp>
@@ -60,11 +61,9 @@ inline void read_volume_bytes(volume_file& file, volume_format format)
     case volume_format::automatic:
         break;
     }
-    const bool binary_medit = small_extension(file.path) == ".meshb";
-    throw io_error(file.path, binary_medit
-                                  ? "binary MEDIT files are not read; convert it to .mesh"
-                                  : "unknown kind of file; volumes are read from .mesh, .msh, .vtk, .vtu, "
-                                    ".node with .ele, .su2 and .prob, from other names if the format is given");
+    if (small_extension(file.path) == ".meshb")
+        throw io_error(file.path, "binary MEDIT files are not read; convert it to .mesh");
+    refuse_kind(file.path, "volumes are read from .mesh, .msh, .vtk, .vtu, .node with .ele, .su2 and .prob");
 }
 
 } // namespace taut::io::impl
