@@ -5,7 +5,6 @@
 #include <system_error>
 #include <utility>
 
-#include <taut/impl/io/file/file_kind.hpp>
 #include <taut/impl/io/obj.hpp>
 #include <taut/impl/io/off.hpp>
 #include <taut/impl/io/ply.hpp>
@@ -13,6 +12,7 @@
 #include <taut/impl/io/read_surface.hpp>
 #include <taut/impl/io/stl.hpp>
 #include <taut/impl/io/surface/surface_formats.hpp>
+#include <taut/impl/io/volume/formats.hpp>
 
 namespace taut::io::impl
 {

@@ -4,7 +4,6 @@
 #include <system_error>
 #include <utility>
 
-#include <taut/impl/io/file/file_kind.hpp>
 #include <taut/impl/io/read_file.hpp>
 #include <taut/impl/io/read_volume.hpp>
 #include <taut/impl/io/volume/formats.hpp>
