@@ -24,7 +24,7 @@ try
     session s(q, surface);
     if (const auto first = s.solve(); !first) // as parameterize()
     {
-        std::cerr << first.report.reason << '\n';
+        std::cerr << first.reason() << '\n';
         return 1;
     }
     const auto boundary = boundary_loops(surface).front();

@@ -27,8 +27,7 @@ try
     deform_params<tetrahedron> params;
     params.constraints = constraints(volume).fix(bottom).move(top, half_turn);
     const auto [x, report] = deform(q, volume, params); // certified: no tetrahedron is inverted
-    std::cout << "E " << report.energy << (report.converged ? ", converged, " : ", ") << report.flips.flipped << " of "
-              << report.flips.elements << " inverted\n";
+    std::cout << report << '\n';
     // [twist]
     return report.outcome == outcome::valid ? 0 : 1;
 }

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <limits>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,14 @@ struct session_report
     impl::queue_counters counters;          ///< counts of this call
 };
 
+inline std::ostream& operator<<(std::ostream& out, const session_report& r)
+{
+    if (r.outcome != outcome::valid) return out << "no valid map: " << r.reason;
+    out << "E " << r.energy << (r.converged ? ", converged, " : ", not converged, ") << r.steps << " steps, ";
+    if (!r.pins_held && r.farthest >= 0) out << "pin of vertex " << r.farthest << ' ' << r.distance << " away, ";
+    return out << r.flips.flipped << " of " << r.flips.elements << " inverted";
+}
+
 /// Result of session::solve: positions and a report; `auto [uv, report] = s.solve(...)`.
 template <class Element>
 struct session_result
@@ -77,6 +86,7 @@ struct session_result
 
     /// True if there is a map: it is certified.
     explicit operator bool() const { return report.outcome == outcome::valid; }
+    const std::string& reason() const { return report.reason; }
 };
 
 } // namespace taut
