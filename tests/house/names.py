@@ -3,7 +3,7 @@
 
 Public is what a header declares in taut, taut::io, taut::energy, taut::solve or taut::dist; the rest is in the impl of one of them.
 The page has a section for each header of include/taut. Each name stands in one section, of a header that brings it,
-with a meaning. A docstring starts with a noun phrase or a verb in the third person, never with What, Whether, Who, How, ...
+with a meaning; pages for users name no others of taut::io, energy, solve and dist. A docstring starts with a noun phrase or a verb in the third person, never with What, Whether, Who, How, ...
 --rows prints the rows of names that the page lacks, with the first sentence of their comments."""
 import collections
 import pathlib
@@ -53,6 +53,10 @@ for section in re.split(r"^## ", page, flags=re.M)[1:]:
             faults.append(f"{row}: the page answers no question; name the thing, or say what it does with a verb")
         if row not in brought:
             faults.append(f"{row}: {header.group(1)} does not bring it")
+for folder in ("tutorial", "howto", "reference"):
+    for path in sorted((root / "docs" / folder).glob("*.md")):
+        said = re.findall(r"(?<![\w:/])(?:taut::)?((?:io|energy|solve|dist)::\w+)", path.read_text())
+        faults += [f"{path.relative_to(root)}: {n} is no public name" for n in sorted(set(said) - set(listed))]
 public = {}
 for declarations in names.values():
     for key, comments in declarations.items():

@@ -193,6 +193,11 @@ inline std::vector<idx> region_numbers(const volume_file& file)
     return numbers;
 }
 
+} // namespace taut::io::impl
+
+namespace taut::io
+{
+
 /// Facets that smoothing preserves: sides between cells of different labels, references or regions, inner ones with a
 /// labelled face of the file (in the plane a line), and, if `boundary`, the sides of the boundary. A piece has the same
 /// labels on both sides and on its faces.
@@ -211,9 +216,9 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
     std::size_t number = 0;
     for (const auto& block : file.cells)
         for (std::size_t c = 0; c < block.size(); ++c, ++number)
-            if (shape_of(block.kind).dimension == file.dimension)
+            if (impl::shape_of(block.kind).dimension == file.dimension)
                 regions.push_back(numbers[number]);
-            else if (shape_of(block.kind).dimension == file.dimension - 1)
+            else if (impl::shape_of(block.kind).dimension == file.dimension - 1)
             {
                 auto& label = faces[key_of(block.cell(c))]; // of copies, that of one that has any
                 label = label == 0 ? numbers[number] : label;
@@ -226,7 +231,7 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
     {
         const auto& side = sides.faces[s];
         const idx twin = sides.twin[s];
-        if (twin < 0 ? !boundary || twin == cell_faces::non_manifold : twin < static_cast<idx>(s)) continue;
+        if (twin < 0 ? !boundary || twin == impl::cell_faces::non_manifold : twin < static_cast<idx>(s)) continue;
         const auto face = faces.find(key_of(side.corners()));
         const idx label = face != faces.end() ? face->second : 0;
         const idx here = regions[static_cast<std::size_t>(side.cell)];
@@ -239,6 +244,11 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
     }
     return kept;
 }
+
+} // namespace taut::io
+
+namespace taut::io::impl
+{
 
 /// Finds faults of the cells of a file, because of which they cannot all be positive and disjoint: pairs with the same
 /// corners (duplicate_cell), neighbours oriented differently (inconsistent_orientation), and sides that three cells or
