@@ -25,6 +25,8 @@ test_usage()
     error_says 'no option --colour;'
     expect 2 unwrap in.obj --out out.obj
     error_says 'no option --out \(did you mean --output\?\)'
+    expect 2 unwrap in.obj -o out.obj --seams edges.txt
+    error_says 'no option --seams, which is one of atlas;'
     expect 2 unwrap in.obj in.obj -o out.obj
     error_says 'no place for in.obj'
     for option in -o '-o out.obj --pins' '-o out.obj --stats'; do # as of a variable that is not set

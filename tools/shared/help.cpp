@@ -31,11 +31,13 @@ std::size_t edit_distance(std::string_view from, std::string_view to)
     return row.back();
 }
 
-/// Nearest of some words to a given one: one that begins with it, or is at most two letters away; empty: none.
+/// Nearest of some words to a given one: one that begins with it, or is a third of its letters away, at most two;
+/// empty: none.
 std::string nearest_of(const std::vector<std::string>& words, const std::string& given)
 {
     std::string nearest;
-    std::size_t least = 3; // of more changes, it is another word
+    const std::size_t letters = given.size() - std::min(given.find_first_not_of('-'), given.size());
+    std::size_t least = std::clamp<std::size_t>(letters / 3, 1, 2) + 1; // of more changes, it is another word
     for (const auto& word : words)
     {
         const std::size_t distance = word.starts_with(given) ? 1 : edit_distance(given, word);
@@ -118,7 +120,13 @@ std::string wrong_words(const CLI::App& program)
     for (const auto* known : parsed.back()->get_options())
         for (const auto& name : known->get_lnames()) names.push_back("--" + name);
     const std::string given = option->substr(0, option->find('='));
-    return there_is_no("option", given, given.starts_with("--") ? nearest_of(names, given) : "");
+    if (!given.starts_with("--")) return there_is_no("option", given, {});
+    const auto nearest = nearest_of(names, given);
+    std::string others;
+    for (const auto* other : program.get_subcommands([](const CLI::App*) { return true; }))
+        if (nearest.empty() && other->get_option_no_throw(given))
+            others += (others.empty() ? ", which is one of " : ", ") + other->get_name();
+    return there_is_no("option", given, nearest) + others;
 }
 
 std::string wrong_subcommand(const CLI::App& program, int argc, const char* const* argv)
