@@ -13,9 +13,10 @@ test_input()
     error_says '.obj, .off, .ply and .stl'
     # Kinds of names, wherever one is read: no file, a folder, a file of another kind.
     mkdir folder
+    grid 4 >in.obj
     printf 'MeshVersionFormatted 2\nDimension 2\n' >plane.mesh
     for command in 'unwrap folder' 'atlas folder' 'smooth folder' 'deform folder' 'untangle folder' \
-                   'unwrap word.obj --pins folder'; do
+                   'unwrap in.obj --pins folder'; do
         # shellcheck disable=SC2086
         expect 3 $command -o out.obj
         error_says 'folder: is a folder; name a file'
