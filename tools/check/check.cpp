@@ -310,8 +310,9 @@ std::string lines_of(const check_report& r, const check_options& options)
 {
     labelled_lines lines;
     if (r.vertices > 0)
+        const std::string singular = r.cells_name == triangle::names ? triangle::name : tetrahedron::name;
         lines.add("input", options.input + ": " + r.kind + ", " + count(r.vertices, "vertex", "vertices") + ", " +
-                               (r.lines.empty() ? count(r.cells) + ' ' : std::string()) + r.cells_name);
+                               (r.lines.empty() ? count(r.cells, singular, r.cells_name) : r.cells_name));
     for (const auto& [label, text] : r.lines) lines.add(label, text);
     if (r.has_map && r.lines.empty())
         lines.add("map", count(r.map.flipped) + " of " + count(r.cells) + " inverted at the start" +
