@@ -309,8 +309,8 @@ nlohmann::ordered_json json_of(const check_report& r, const check_options& optio
 std::string lines_of(const check_report& r, const check_options& options)
 {
     labelled_lines lines;
+    const std::string singular = r.cells_name == triangle::names ? triangle::name : tetrahedron::name;
     if (r.vertices > 0)
-        const std::string singular = r.cells_name == triangle::names ? triangle::name : tetrahedron::name;
         lines.add("input", options.input + ": " + r.kind + ", " + count(r.vertices, "vertex", "vertices") + ", " +
                                (r.lines.empty() ? count(r.cells, singular, r.cells_name) : r.cells_name));
     for (const auto& [label, text] : r.lines) lines.add(label, text);
