@@ -19,9 +19,9 @@ namespace
 namespace fs = std::filesystem;
 using taut::impl::program_store;
 
-const std::string source = "__kernel void twice(__global float* x) { x[get_global_id(0)] *= 2; }";
-const std::string other = "__kernel void thrice(__global float* x) { x[get_global_id(0)] *= 3; }";
-const std::string options = "-cl-std=CL1.2 -w";
+const std::string text_of_twice = "__kernel void twice(__global float* x) { x[get_global_id(0)] *= 2; }";
+const std::string text_of_thrice = "__kernel void thrice(__global float* x) { x[get_global_id(0)] *= 3; }";
+const std::string plain_options = "-cl-std=CL1.2 -w";
 
 fs::path only_file(const fs::path& folder)
 {
@@ -29,11 +29,11 @@ fs::path only_file(const fs::path& folder)
     return fs::directory_iterator(folder)->path();
 }
 
-/// The name of the first kernel of what is built by the text of source.
+/// The kernel of what the store builds or takes for the text of `twice`.
 std::string kernel_of_built(const program_store& store, const taut::queue& q)
 {
     boost::compute::program made;
-    store.build(made, boost::compute::context(q.native_context()), q.device(), source, options);
+    store.build(made, boost::compute::context(q.native_context()), q.device(), text_of_twice, plain_options);
     return made.get_info<std::string>(CL_PROGRAM_KERNEL_NAMES);
 }
 
@@ -110,13 +110,13 @@ TEST_CASE("program_store: programs are built once, and again where the driver do
     const program_store store(folder / "programs");
     const taut::queue q, p;
     CHECK(kernel_of_built(store, q) == "twice");
-    const std::string key = taut::impl::key_of(q.device(), source, options);
+    const std::string key = taut::impl::key_of(q.device(), text_of_twice, plain_options);
     REQUIRE_FALSE(store.find(key).empty());
 
     // What is taken is what was kept.
     boost::compute::program made;
-    store.build(made, boost::compute::context(q.native_context()), q.device(), other, options);
-    store.keep(key, store.find(taut::impl::key_of(q.device(), other, options)));
+    store.build(made, boost::compute::context(q.native_context()), q.device(), text_of_thrice, plain_options);
+    store.keep(key, store.find(taut::impl::key_of(q.device(), text_of_thrice, plain_options)));
     CHECK(kernel_of_built(store, p) == "thrice");
 
     store.keep(key, "no program");
