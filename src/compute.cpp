@@ -8,6 +8,7 @@
 #include <taut/impl/compute/program/argument.ipp>
 #include <taut/impl/compute/program/build_excerpt.ipp>
 #include <taut/impl/compute/program/joined_source.ipp>
+#include <taut/impl/compute/program/program_store.ipp>
 #include <taut/impl/compute/program/signature.ipp>
 #include <taut/impl/compute/program_cache.ipp>
 #include <taut/impl/compute/queue.ipp>

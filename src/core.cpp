@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <taut/impl/core/error.ipp>
 #include <taut/impl/core/parallel.ipp>
+#include <taut/impl/core/private_folder.ipp>
 #include <taut/impl/energy/default_energy.ipp>
 #include <taut/impl/exact/branch_points.ipp>
 #include <taut/impl/exact/convex_polygons.ipp>

@@ -3,11 +3,14 @@
 # a cache of its own, or takes turns with its group, filled with what the device tests have compiled (support/kernels.sh).
 set(taut_kernels ${CMAKE_CURRENT_LIST_DIR}/support/kernels.sh)
 
+# What taut keeps for drivers that keep nothing is safe between processes: one folder for all.
+set(taut_programs TAUT_CACHE_DIR=${CMAKE_BINARY_DIR}/programs)
+
 # A test with a cache of its own.
 function(taut_own_kernel_cache test)
     string(MAKE_C_IDENTIFIER ${test} folder)
     file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/pocl/${folder})
-    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "POCL_CACHE_DIR=${CMAKE_BINARY_DIR}/pocl/${folder}")
+    set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "POCL_CACHE_DIR=${CMAKE_BINARY_DIR}/pocl/${folder}" ${taut_programs})
 endfunction()
 
 # taut_group_kernel_cache(<group> <test>...): tests that take turns with one cache.
@@ -22,7 +25,7 @@ function(taut_group_kernel_cache group)
             RESOURCE_LOCK kernels_${group} DEPENDS "device.edit;device.map;device.objective;device.start;device.untangle")
     endif()
     foreach(test ${ARGN})
-        set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "POCL_CACHE_DIR=${cache}")
+        set_property(TEST ${test} APPEND PROPERTY ENVIRONMENT "POCL_CACHE_DIR=${cache}" ${taut_programs})
         set_property(TEST ${test} APPEND PROPERTY RESOURCE_LOCK kernels_${group})
         set_property(TEST ${test} APPEND PROPERTY FIXTURES_REQUIRED kernels_${group})
         set_property(TEST ${test} PROPERTY COST 10) # what takes turns begins early, so that no turns are left at the end

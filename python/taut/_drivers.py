@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import hashlib
+import importlib.metadata
 import importlib.util
 import os
 import shutil
@@ -11,6 +12,7 @@ import tempfile
 from pathlib import Path
 
 _SYSTEM = Path("/etc/OpenCL/vendors")
+_INTEL = ("intel-opencl-rt", "libintelocl.so")
 _PACKAGES = ("pocl_binary_distribution", "pyopencl")
 
 #: Where the compiler inside PoCL looks for the library that it links kernels with.
@@ -20,7 +22,7 @@ _LIBGCC = ("usr/lib/gcc/*/*/libgcc.a", "usr/lib64/gcc/*/*/libgcc.a", "usr/lib32/
 left_out = ""
 
 REMEDY = (
-    "install an OpenCL driver: `pip install taut[pocl]` (any CPU), `apt install pocl-opencl-icd`, "
+    "install an OpenCL driver: `pip install taut[opencl]` (any x86-64 CPU), `apt install pocl-opencl-icd`, "
     "or `conda install -c conda-forge pocl`"
 )
 
@@ -41,8 +43,19 @@ def _can_link(root: Path = Path("/")) -> bool:
     return shutil.which("ld") is not None and any(any(root.glob(pattern)) for pattern in _LIBGCC)
 
 
-def drivers_by_pip() -> list[str]:
-    """Libraries of drivers in packages that are installed beside this one."""
+def _runtime_of_intel() -> list[str]:
+    """Intel's runtime for CPUs, which wheels put beside the interpreter's libraries, outside of any package."""
+    distribution, library = _INTEL
+    try:
+        files = importlib.metadata.files(distribution) or []
+    except importlib.metadata.PackageNotFoundError:
+        return []
+    found = [os.path.realpath(file.locate()) for file in files if file.name == library]
+    return [path for path in found if os.path.exists(path)]
+
+
+def _drivers_of_packages() -> list[str]:
+    """Libraries of drivers inside packages that are installed beside this one: PoCL."""
     found: list[str] = []
     for package in _PACKAGES:
         spec = importlib.util.find_spec(package)
@@ -54,27 +67,31 @@ def drivers_by_pip() -> list[str]:
     return found
 
 
-def announce() -> None:
-    """Sets what loaders read, unless the user has named drivers or the system has some.
-
-    Two drivers of one kind in a process do not go well together, so those of the system go first. A folder of the
-    user's without drivers hides those of the system, and not these.
-    """
+def drivers_by_pip() -> list[str]:
+    """Libraries of drivers that pip has brought: of one kind, as two do not go well together in a process."""
     global left_out
-    if os.environ.get("OCL_ICD_FILENAMES") or _has_drivers(os.environ.get("OCL_ICD_VENDORS")):
-        return
-    libraries = drivers_by_pip()
-    if not libraries:
-        return
-    if not _can_link():
+    if libraries := _runtime_of_intel():
+        return libraries
+    if (libraries := _drivers_of_packages()) and not _can_link():
         left_out = (
             "PoCL as pip has it needs the linker `ld` and libgcc: `apt install gcc`, or take another OpenCL driver: "
-            "`apt install pocl-opencl-icd`, or `conda install -c conda-forge pocl`"
+            "`pip install taut[opencl]`, `apt install pocl-opencl-icd`, or `conda install -c conda-forge pocl`"
         )
+        return []
+    return libraries
+
+
+def announce() -> None:
+    """Sets what loaders read, unless the user has named drivers or the system has some, which go first.
+
+    A folder of the user's without drivers hides those of the system, and not these.
+    """
+    if os.environ.get("OCL_ICD_FILENAMES") or _has_drivers(os.environ.get("OCL_ICD_VENDORS")):
         return
-    # One loader takes a list, another a folder.
-    os.environ["OCL_ICD_FILENAMES"] = os.pathsep.join(libraries)
-    os.environ["OCL_ICD_VENDORS"] = str(_folder_of(libraries))
+    if libraries := drivers_by_pip():
+        # One loader takes a list, another a folder.
+        os.environ["OCL_ICD_FILENAMES"] = os.pathsep.join(libraries)
+        os.environ["OCL_ICD_VENDORS"] = str(_folder_of(libraries))
 
 
 def _folder_of(libraries: list[str]) -> Path:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import os
 import pathlib
 import re
@@ -23,7 +24,9 @@ def driver():
 
 
 CALLS = """
-import taut
+import sys, taut
+from taut import _drivers
+_drivers._INTEL = (sys.argv[1], "libintelocl.so")
 print(taut.certify([[0, 1, 2]], [[0, 0], [1, 0], [0, 1]]).elements)
 try:
     print(taut.unwrap([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]).certified, taut.devices()[0].driver)
@@ -32,18 +35,27 @@ except taut.DeviceError as e:
 """
 
 
-def said(tmp_path, *packages, before=(), **environment):
-    """What the calls say where the system's drivers are hidden, and those of packages can be found."""
+def start(tmp_path, *packages, before=(), intel="not-installed", **environment):
+    """Calls where the system's drivers are hidden, and those of packages can be found. intel: its distribution."""
     (tmp_path / "empty").mkdir(exist_ok=True)
     path = os.pathsep.join([str(pathlib.Path(taut.__file__).parents[1]), *map(str, packages)])
-    kept = {k: v for k, v in os.environ.items() if not k.startswith(("OCL_ICD", "POCL_CACHE", "TAUT_DEVICE"))}
-    done = subprocess.run([*before, sys.executable, "-c", CALLS], capture_output=True, text=True, timeout=120,
-                          env={**kept, "PYTHONPATH": path, "POCL_CACHE_DIR": os.environ.get("POCL_CACHE_DIR", ""),
-                               "OCL_ICD_VENDORS": str(tmp_path / "empty"), **environment})
-    assert done.returncode == 0, done.stderr
-    if "older than this processor" in done.stdout:
+    kept = {k: v for k, v in os.environ.items() if not k.startswith(("OCL_ICD", "TAUT_DEVICE"))}
+    return subprocess.Popen([*before, sys.executable, "-c", CALLS, intel], stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True,
+                            env={**kept, "PYTHONPATH": path, "OCL_ICD_VENDORS": str(tmp_path / "empty"), **environment})
+
+
+def end(process):
+    """What calls have said."""
+    out, err = process.communicate(timeout=120)
+    assert process.returncode == 0, err
+    if "older than this processor" in out:
         pytest.skip("PoCL as pip has it does not know this processor")
-    return done.stdout.splitlines()
+    return out.splitlines()
+
+
+def said(*where, **more):
+    return end(start(*where, **more))
 
 
 def package_with(tmp_path, library):
@@ -66,18 +78,49 @@ def test_a_driver_by_pip_that_could_not_link_is_left_out_in_a_sentence(tmp_path)
     assert all(words in sentence for words in ("`ld`", "apt install gcc", "conda install"))
 
 
-def test_the_driver_of_the_extra_serves_alone(tmp_path):
-    """PoCL as pip has it, with the system's drivers out of sight: in a space of names of its own where that may be."""
+def hidden_system():
+    """A command by which another one does not see the system's drivers even where it looks for them, if that may be."""
+    hide = "mount -t tmpfs none /etc/OpenCL && unset OCL_ICD_VENDORS && exec \"$@\""
+    apart = ["unshare", "--mount", "--map-root-user", "sh", "-c", hide, "sh"]
+    return apart if subprocess.run([*apart, "true"], capture_output=True, check=False).returncode == 0 else []
+
+
+def test_the_driver_of_the_extra_serves_alone_and_compiles_once(tmp_path):
+    """Intel's runtime for CPUs, in two processes at a time, and in a third that compiles nothing."""
+    try:
+        version = importlib.metadata.version("intel-opencl-rt")
+    except importlib.metadata.PackageNotFoundError:
+        pytest.skip("intel-opencl-rt is not installed")
+    programs = tmp_path / "programs"
+    more = {"before": hidden_system(), "intel": "intel-opencl-rt", "TAUT_CACHE_DIR": str(programs)}
+    kept = lambda: {(file.name, file.stat().st_ino) for file in programs.iterdir()}
+    for count, found in [end(process) for process in [start(tmp_path, **more), start(tmp_path, **more)]]:
+        assert count == "1" and found.startswith(f"True {version[:4]}.")
+    first = kept()
+    assert first and said(tmp_path, **more)[1].startswith("True ") and kept() == first
+
+
+def test_intels_runtime_is_found_where_its_wheel_has_put_it_and_goes_first(tmp_path, monkeypatch):
+    site = tmp_path / "lib" / "python3" / "site-packages"
+    record = site / "intel_opencl_rt-1.dist-info" / "RECORD"
+    record.parent.mkdir(parents=True)
+    record.write_text("../../libintelocl.so,,\n../../cl.cfg,,\nintel_opencl_rt-1.dist-info/RECORD,,\n")
+    (record.parent / "METADATA").write_text("Metadata-Version: 2.1\nName: intel-opencl-rt\nVersion: 1\n")
+    monkeypatch.syspath_prepend(str(site))
+    monkeypatch.setattr(_drivers, "_drivers_of_packages", lambda: ["pocl.so"])
+    monkeypatch.setattr(_drivers, "_can_link", lambda: True)
+    assert _drivers.drivers_by_pip() == ["pocl.so"]
+    (tmp_path / "lib" / "libintelocl.so").write_text("")
+    assert _drivers.drivers_by_pip() == [str(tmp_path / "lib" / "libintelocl.so")]
+
+
+def test_pocl_as_pip_has_it_serves_alone(tmp_path):
     site = pathlib.Path(pytest.importorskip("pocl_binary_distribution").__file__).parents[1]
     (tmp_path / "site").mkdir()
     for name in ("pocl_binary_distribution", "pyopencl"):
         (tmp_path / "site" / name).symlink_to(site / name)
-    hide = "mount -t tmpfs none /etc/OpenCL && unset OCL_ICD_VENDORS && exec \"$@\""
-    apart = ["unshare", "--mount", "--map-root-user", "sh", "-c", hide, "sh"]
-    possible = subprocess.run([*apart, "true"], capture_output=True, check=False).returncode == 0
     (tmp_path / "cache").mkdir()
-    count, found = said(tmp_path, tmp_path / "site", before=apart if possible else [],
-                        POCL_CACHE_DIR=str(tmp_path / "cache"))
+    count, found = said(tmp_path, tmp_path / "site", before=hidden_system(), POCL_CACHE_DIR=str(tmp_path / "cache"))
     assert count == "1" and found == "True 3.0-rc2"
 
 
@@ -99,7 +142,7 @@ def test_libraries_beside_their_file_are_named_by_their_path(tmp_path, monkeypat
     (package / ".libs" / "libown.so").write_text("")
     monkeypatch.syspath_prepend(str(tmp_path))
     monkeypatch.setattr(_drivers, "_PACKAGES", ("own_driver",))
-    assert _drivers.drivers_by_pip() == [str(package / ".libs" / "libown.so")]
+    assert _drivers._drivers_of_packages() == [str(package / ".libs" / "libown.so")]
 
 
 def test_what_the_user_has_set_stays(monkeypatch):

@@ -12,6 +12,7 @@ grep -qw avx2 /proc/cpuinfo 2>/dev/null || { echo "skipped: no AVX2"; exit 77; }
 rm -rf "$cache"
 mkdir -p "$cache"
 POCL_CACHE_DIR=$cache "$program"
+[ -n "$(ls "$cache")" ] || { echo "skipped: not PoCL"; exit 77; }
 
 # With AVX-512 compilers gather the vertices of neighbouring cells; on older processors they may load them one by one,
 # and the arithmetic shows whether the kernel was vectorised.

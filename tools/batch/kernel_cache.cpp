@@ -11,13 +11,25 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <taut/impl/core/private_folder.hpp>
+
 #include "shared/failure.hpp"
-#include "shared/private_folder.hpp"
 
 namespace taut::tools::batch
 {
 
 namespace fs = std::filesystem;
+
+namespace
+{
+
+void make_private(const fs::path& folder)
+{
+    if (const auto fault = impl::fault_of_made_folder(folder); !fault.empty())
+        throw usage_error("--cache " + folder.string() + ": " + fault + "; name another folder");
+}
+
+} // namespace
 
 fs::path default_caches()
 {
@@ -43,7 +55,7 @@ kernel_cache::kernel_cache(const fs::path& caches)
         throw usage_error("--cache " + caches.string() + ": " + std::generic_category().message(number) +
                           "; name another folder");
     };
-    make_private(caches, "--cache");
+    make_private(caches);
     for (int k = 0;; ++k)
     {
         folder_ = caches / std::to_string(k);
@@ -55,7 +67,7 @@ kernel_cache::kernel_cache(const fs::path& caches)
         if (::flock(*lock_, LOCK_EX | LOCK_NB) == 0) break;
         if (errno != EWOULDBLOCK && errno != EINTR) refuse(errno);
     }
-    make_private(folder_, "--cache");
+    make_private(folder_);
 }
 
 } // namespace taut::tools::batch

@@ -15,11 +15,11 @@
 #include <unistd.h>
 
 #include <taut/impl/compute/quirks.hpp>
+#include <taut/impl/core/private_folder.hpp>
 #include <taut/impl/sparse/block_matrix.hpp>
 
 #include "shared/child.hpp"
 #include "shared/failure.hpp"
-#include "shared/private_folder.hpp"
 
 namespace taut::tools
 {
@@ -102,7 +102,7 @@ void require_own_kernels(const taut::device& device)
     const auto folder = kernels_of_pocl();
     std::error_code failure;
     if (!impl::quirks::is_pocl(device) || !fs::is_directory(folder, failure)) return;
-    if (const auto fault = fault_of_folder(fs::canonical(folder, failure), S_IWOTH); !fault.empty())
+    if (const auto fault = impl::fault_of_folder(fs::canonical(folder, failure), 0002); !fault.empty())
         throw usage_error(folder.string() + ", where PoCL keeps compiled kernels: " + fault +
                           "; name a folder of your own with POCL_CACHE_DIR");
 }

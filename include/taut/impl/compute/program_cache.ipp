@@ -3,6 +3,7 @@
 
 #include <chrono>
 
+#include <taut/impl/compute/program/program_store.hpp>
 #include <taut/impl/compute/program_cache.hpp>
 
 namespace taut::impl
@@ -81,8 +82,8 @@ void program_cache::build(entry& target, const std::string& source, const std::s
 
 void program_cache::compile(entry& target, const std::string& source, const std::string& options)
 {
-    target.program = boost::compute::program::create_with_source(source, context_);
-    target.program.build((quick_ ? "-cl-std=CL1.2 -w -cl-opt-disable " : "-cl-std=CL1.2 -w ") + options);
+    program_store::of(device_).build(target.program, context_, device_, source,
+                                     (quick_ ? "-cl-std=CL1.2 -w -cl-opt-disable " : "-cl-std=CL1.2 -w ") + options);
 }
 
 bool program_cache::built_without_header(entry& target, const std::string& source, const std::string& options)

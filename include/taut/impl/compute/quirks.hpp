@@ -37,6 +37,13 @@ inline bool reads_long_header(const device& d)
     return is_pocl(d);
 }
 
+/// Intel's runtime for CPUs compiles each program in each process, some seconds in all: taut keeps them. PoCL and
+/// NVIDIA keep them themselves.
+inline bool keeps_no_programs(const device& d)
+{
+    return d.platform() == "Intel(R) OpenCL" && d.is_cpu();
+}
+
 /// Oclgrind, the checking simulator: slow, one item at a time, so tests shrink their sizes.
 inline bool is_oclgrind(const device& d)
 {
