@@ -113,7 +113,8 @@ std::string man_page(const program_words& program)
     page += section("OPTIONS", own.options) + exit_status(own.footer);
     page += ".SH ENVIRONMENT\n.TP\n" + bold("TAUT_DEVICE") +
             "\nNumber or part of the name of the OpenCL device that is taken.\n.TP\n" + bold("TAUT_THREADS") +
-            "\nHow many threads of the host work at a time.\n.TP\n" + bold("TAUT_THEME") +
+            "\nHow many threads of the host work at a time.\n.TP\n" + bold("TAUT_CACHE_DIR") +
+            "\nFolder of compiled programs, for drivers that keep none; 0: none are kept.\n.TP\n" + bold("TAUT_THEME") +
             "\nIf it is dark, pictures have a dark ground.\n";
     return page;
 }
