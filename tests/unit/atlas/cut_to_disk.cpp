@@ -78,19 +78,6 @@ TEST_CASE("cut_to_disk: boundaries are joined by the shortest way")
     CHECK(check_disks(test::annulus(24)) == doctest::Approx(1).epsilon(1e-9));
 }
 
-TEST_CASE("cut_to_disk: loops around handles are no shorter than the least that they can be")
-{
-    CHECK(least_loops(test::ball(4), facets(test::ball(4))) == 0);
-    for (int handles = 1; handles <= 3; ++handles)
-    {
-        const auto plate = test::pierced_plate(handles, 3);
-        const auto f = facets(plate);
-        const double least = least_loops(plate, f);
-        CHECK(least > 0);
-        CHECK(least <= seam_length(plate, f, disk_cutting(plate, f).loops()));
-    }
-}
-
 TEST_CASE("cut_to_disk: a torus is cut along its shortest loops")
 {
     // Radii 3 and 1: once around the tube and once around the hole, where that is narrowest.

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <iterator>
 #include <limits>
-#include <numeric>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -252,28 +250,6 @@ private:
     std::vector<char> on_rim_;   // one per vertex
     std::vector<kind> kind_;     // of components, at their first vertex
 };
-
-/// What the seams around the handles of a connected surface are long at least: they are a graph with two independent
-/// loops a handle, so of two edges, and none is shorter than the shortest ones.
-inline double least_loops(const mesh<triangle>& m, const facet_table& f)
-{
-    std::vector<double> lengths; // of edges
-    std::ptrdiff_t rim = 0;
-    for (std::size_t s = 0; s < f.twin.size(); ++s)
-    {
-        rim += f.twin[s] < 0;
-        if (f.twin[s] > static_cast<idx>(s)) continue;
-        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
-        lengths.push_back(
-            glm::distance(m.points()[static_cast<std::size_t>(a)], m.points()[static_cast<std::size_t>(b)]));
-    }
-    // Euler: V - E + F = 2 - 2 handles - boundaries, each of which has three edges at least.
-    const auto euler = std::ptrdiff_t(m.vertex_count()) - std::ssize(lengths) + m.cell_count();
-    const auto loops = std::max<std::ptrdiff_t>(0, 2 - euler - rim / 3);
-    const auto least = lengths.begin() + std::min(loops, std::ssize(lengths));
-    std::nth_element(lengths.begin(), least, lengths.end());
-    return std::accumulate(lengths.begin(), least, 0.0);
-}
 
 } // namespace taut::impl
 

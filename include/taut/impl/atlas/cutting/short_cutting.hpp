@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <numeric>
@@ -139,7 +138,7 @@ public:
     {
         double sum = 0;
         for (const auto& p : searches_)
-            if (p) sum += p->rest ? p->rest->total : area_of(*p->surface, 0, p->surface->cell_count());
+            if (p && p->rest) sum += p->rest->total;
         return sum;
     }
 
@@ -245,9 +244,6 @@ private:
         piece_search& p = *searches_[k];
         p.surface = chart_alone(pieces_.charts, k);
         p.facets = facets(*p.surface);
-        // Loops around handles are never sewn up: where there are many, charts that go around none are better.
-        const double root = std::sqrt(area_of(*p.surface, 0, p.surface->cell_count()));
-        if (least_loops(*p.surface, p.facets) > seam_search::most_loops * root) return;
         coarse_surface coarse =
             make_coarse(*p.surface, p.facets,
                         p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count());
