@@ -181,7 +181,7 @@ TEST_CASE("needles around one vertex: they come into few squares of a grid, and 
         patch.cells.push_back(cells[at(c)]);
         for (const idx v : cells[at(c)]) uv.emplace_back(points[at(v)]);
     }
-    CHECK(grid_squares(rest, uv).size() < 200 * around); // 2,400,000 in their boxes
+    CHECK(triangle_grid(rest, uv).entries().size() < 200 * around); // 2,400,000 in their boxes
     const std::vector<idx> one(at(around), 0);
     CHECK(overlapping_pairs(rest, uv, one).empty());
     for (idx v = 0; v <= around; ++v)
@@ -236,16 +236,49 @@ TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
     auto uv = flat.uv;
     std::vector<idx> all(rest.surface.cells().size());
     std::iota(all.begin(), all.end(), idx(0));
-    CHECK(part_laid(rest.surface, {laid, uv, all}, rest.price));
+    CHECK(part_laid(rest.surface, {laid, uv, all}, {rest.price, {}}));
     CHECK(uv == flat.uv);
     CHECK(pieces_between(rest.facets, laid).second == 2);
     CHECK(seam_price(rest, laid) == doctest::Approx(1).epsilon(0.02));
-    CHECK_FALSE(part_laid(rest.surface, {laid, uv, all}, rest.price));
+    CHECK_FALSE(part_laid(rest.surface, {laid, uv, all}, {rest.price, {}}));
 
     CHECK(part_charts(rest, flat, {}) == 1);
     CHECK(pieces_between(rest.facets, flat.seam).second == 2);
     CHECK(border_crossings(rest, flat, 1) == 0);
     check_no_flips(rest, flat);
+}
+
+TEST_CASE("crumbs: a small chart goes back to its neighbour, unless something lies there")
+{
+    constexpr idx n = 12, few = 2; // squares a side, of the crumb
+    const rest_surface rest = rest_of(test::grid(n, n));
+    const auto in_crumb = [&](idx c)
+    {
+        const auto x = rest.surface.rest(c);
+        const vec3 middle = (x[0] + x[1] + x[2]) / 3.0;
+        return middle.x * n < few && middle.y * n < few;
+    };
+    flat_surface flat;
+    flat.seam.assign(rest.facets.twin.size(), 0);
+    for (idx s = 0; s < static_cast<idx>(flat.seam.size()); ++s)
+    {
+        if (rest.twin(s) >= 0 && in_crumb(s / 3) != in_crumb(rest.twin(s) / 3)) flat.seam[at(s)] = 1;
+        const vec3 p = rest.surface.points()[at(rest.vertex(s))];
+        flat.uv.push_back(in_crumb(s / 3) ? vec2(5 - p.y, 7 + p.x) : vec2(p)); // turned and moved
+    }
+    number_fans(rest, flat);
+    flat.energy = mean_energy(rest, flat.uv);
+    auto given = flat;
+    CHECK(crumb_giving(rest, given, 10).run() == 1);
+    CHECK(seam_length(rest, given.seam) == 0);
+    CHECK(given.energy == doctest::Approx(4));
+    check_no_flips(rest, given);
+
+    // The corner opposite is folded over, to where it was.
+    for (std::size_t k = 0; k < flat.uv.size(); ++k)
+        if (const vec2 p = flat.uv[k]; !in_crumb(static_cast<idx>(k / 3)) && p.x > 0.5 && p.y > 0.5)
+            flat.uv[k] = p - vec2(1.0 - double(few) / n);
+    CHECK(crumb_giving(rest, flat, 10).run() == 0);
 }
 
 TEST_CASE("seam search: within the bound, and a looser one makes no longer seams beyond a tenth")

@@ -75,7 +75,9 @@ inline std::vector<char> part_overlaps(const atlas_surface& of, chart_set& set, 
     if (some.empty()) return bad;
     std::sort(some.begin(), some.end());
     auto flat = laid(set);
-    if (!part_laid(of.surface, {flat.seam, flat.uv, some}, of.prices())) return bad;
+    if (!part_laid(of.surface, {flat.seam, flat.uv, some},
+                   {of.prices(), of.params.charts.seams, of.params.charts.max_distortion}))
+        return bad;
     set = cut(of, std::move(flat));
     measure(set);
     return unfit(set);

@@ -66,28 +66,58 @@ struct square_entry
     bool operator<(const square_entry& o) const { return place != o.place ? place < o.place : cell < o.cell; }
 };
 
-/// The squares of a grid into which triangles come, of about their size; by squares, ascending.
-inline std::vector<square_entry> grid_squares(const rest_surface& rest, std::span<const vec2> uv)
+/// A grid of squares of about the size of triangles, and which come into each.
+class triangle_grid
 {
-    const auto u = rest_surface::u;
-    const idx cells = rest.first_span;
-    const auto [low, high] = box_about(uv);
-    const double size = std::max({1.5 * std::sqrt(rest.total / std::max<idx>(1, cells)),
-                                  std::max(high.x - low.x, high.y - low.y) / 2000, 1e-300});
-    std::vector<square_entry> entries;
-    for (idx c = 0; c < cells; ++c)
+public:
+    triangle_grid(const rest_surface& rest, std::span<const vec2> uv)
     {
-        const std::size_t k = 3 * u(c);
-        const std::array<vec2, 3> t = {(uv[k] - low) / size, (uv[k + 1] - low) / size, (uv[k + 2] - low) / size};
+        const idx cells = rest.first_span;
+        const auto [low, high] = box_about(uv);
+        low_ = low;
+        size_ = std::max({1.5 * std::sqrt(rest.total / std::max<idx>(1, cells)),
+                          std::max(high.x - low.x, high.y - low.y) / 2000, 1e-300});
+        for (idx c = 0; c < cells; ++c)
+            for_each_square(uv.subspan(3 * rest_surface::u(c)).first<3>(),
+                            [&](std::int64_t place) {
+                                entries_.push_back({place, c});
+                            });
+        std::sort(entries_.begin(), entries_.end());
+    }
+
+    /// By squares, ascending.
+    const std::vector<square_entry>& entries() const { return entries_; }
+
+    /// Calls f(triangle) for those that may lie on a triangle, some several times, until it returns true. Returns
+    /// whether it did.
+    template <class F>
+    bool any_near(std::span<const vec2, 3> triangle, F&& f) const
+    {
+        bool found = false;
+        for_each_square(triangle,
+                        [&](std::int64_t place)
+                        {
+                            auto e = std::lower_bound(entries_.begin(), entries_.end(), square_entry{place, 0});
+                            for (; e != entries_.end() && e->place == place && !found; ++e) found = f(e->cell);
+                        });
+        return found;
+    }
+
+private:
+    template <class F>
+    void for_each_square(std::span<const vec2, 3> uv, F&& f) const
+    {
+        const std::array<vec2, 3> t = {(uv[0] - low_) / size_, (uv[1] - low_) / size_, (uv[2] - low_) / size_};
         const vec2 least = glm::min(glm::min(t[0], t[1]), t[2]), most = glm::max(glm::max(t[0], t[1]), t[2]);
         for (auto i = static_cast<std::int64_t>(least.x); i <= static_cast<std::int64_t>(most.x); ++i)
             for (auto j = static_cast<std::int64_t>(least.y); j <= static_cast<std::int64_t>(most.y); ++j)
-                if (!beyond_a_side(t, static_cast<double>(i), static_cast<double>(j)))
-                    entries.push_back({i * 4096 + j, c});
+                if (!beyond_a_side(t, static_cast<double>(i), static_cast<double>(j))) f(i * 4096 + j);
     }
-    std::sort(entries.begin(), entries.end());
-    return entries;
-}
+
+    vec2 low_{0.0};
+    double size_ = 1;
+    std::vector<square_entry> entries_;
+};
 
 /// Pairs of triangles of the same chart that lie on each other, ascending; found by a grid.
 /// chart: one label a triangle
@@ -95,7 +125,8 @@ inline std::vector<std::array<idx, 2>> overlapping_pairs(const rest_surface& res
                                                          std::span<const idx> chart)
 {
     const auto u = rest_surface::u;
-    const auto entries = grid_squares(rest, uv);
+    const triangle_grid grid(rest, uv);
+    const auto& entries = grid.entries();
     std::vector<std::array<idx, 2>> pairs;
     for (std::size_t first = 0, end = 0; first < entries.size(); first = end)
     {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/atlas/cutting/laid_part.hpp>
+#include <taut/impl/atlas/cutting/give_crumbs.hpp>
 #include <taut/impl/atlas/cutting/minimum_cut.hpp>
 #include <taut/impl/atlas/cutting/overlap_layers.hpp>
 
@@ -70,29 +70,54 @@ inline int part_charts(const rest_surface& rest, flat_surface& flat, const parti
 }
 
 /// Parts charts where they lie on themselves by the shortest cuts between the layers, largest first. The maps stay, so
-/// that it ends after few cuts a layer, whatever the surface. Returns whether something has changed.
-/// price: what a seam counts, one a side of the surface
-inline bool part_laid(const mesh<triangle>& m, const laid_seams& laid, std::span<const double> price)
+/// that it ends after few cuts a layer, whatever the surface. Returns the number of cuts.
+inline int cut_layers(const rest_surface& rest, flat_surface& flat)
 {
     constexpr int rounds = 8, most = 400; // cuts
-    laid_part own = laid_part::of(m, laid, {}, {});
-    for (std::size_t s = 0; s < own.rest.price.size(); ++s) own.rest.price[s] = price[own.part.origin(s)];
-    minimum_cutting between(own.rest);
+    minimum_cutting between(rest);
     int made = 0;
     for (int round = 0, before = -1; round < rounds && made < most && made != before; ++round)
     {
         before = made;
-        for (const overlap_layers& one : find_overlaps(own.rest, own.flat))
+        for (const overlap_layers& one : find_overlaps(rest, flat))
         {
             if (one.below.empty() || one.above.empty()) continue;
-            const auto cut = between.run(own.flat.seam, one.below, one.above); // empty: parted by another one
-            for (const idx s : cut) set_seam(own.rest, own.flat.seam, s, 1);
+            const auto cut = between.run(flat.seam, one.below, one.above); // empty: parted by another one
+            for (const idx s : cut) set_seam(rest, flat.seam, s, 1);
             made += !cut.empty();
             if (made == most) break;
         }
     }
-    if (made > 0) own.write(laid);
-    return made > 0;
+    return made;
+}
+
+/// How charts that lie on themselves are parted as they are.
+struct laid_parting
+{
+    std::span<const double> price;           ///< what a seam counts, one a side of the surface
+    std::span<const char> seams;             ///< sides that stay seams, or empty
+    double bound = crumb_giving::bad_energy; ///< of the mean energy of a chart that is given to its neighbour
+};
+
+/// Parts charts where they lie on themselves; what is small then goes to neighbours beside which there is room, and
+/// where these lie on themselves they are parted again. Returns whether something has changed.
+inline bool part_laid(const mesh<triangle>& m, const laid_seams& laid, const laid_parting& how)
+{
+    laid_part own = laid_part::of(m, laid, how.seams, {});
+    for (std::size_t s = 0; s < own.rest.price.size(); ++s) own.rest.price[s] = how.price[own.part.origin(s)];
+    if (cut_layers(own.rest, own.flat) == 0) return false;
+    const auto charts = [&] { return pieces_between(own.rest.facets, own.flat.seam).second; };
+    constexpr int turns = 3;
+    for (int turn = 0; turn < turns; ++turn)
+    {
+        auto tried = own.flat;
+        if (crumb_giving(own.rest, tried, how.bound).run() == 0) break;
+        cut_layers(own.rest, tried);
+        if (!(pieces_between(own.rest.facets, tried.seam).second < charts())) break;
+        own.flat = std::move(tried);
+    }
+    own.write(laid);
+    return true;
 }
 
 } // namespace taut::impl

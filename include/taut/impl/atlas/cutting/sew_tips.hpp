@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <taut/impl/atlas/cutting/flat_surface.hpp>
-#include <taut/impl/atlas/cutting/laid_part.hpp>
 #include <taut/impl/atlas/cutting/zip.hpp>
 
 namespace taut::impl
