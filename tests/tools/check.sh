@@ -12,6 +12,10 @@ test_check()
     keys check.json schema kind vertices cells exit_code findings
     says values '^exit_code=0$' '^findings=\[\]$'
 
+    printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >one.obj
+    expect 0 check one.obj
+    says out '3 vertices, 1 triangle$'
+
     # All that is wrong, not only the first.
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 0 0\nv 6 0 0\nv 7 0 0\nv 9 9 9\nf 1 2 3\nf 4 5 6\n' >many.obj
     expect 4 check many.obj

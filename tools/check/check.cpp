@@ -309,9 +309,10 @@ nlohmann::ordered_json json_of(const check_report& r, const check_options& optio
 std::string lines_of(const check_report& r, const check_options& options)
 {
     labelled_lines lines;
+    const std::string singular = r.cells_name == triangle::names ? triangle::name : tetrahedron::name;
     if (r.vertices > 0)
         lines.add("input", options.input + ": " + r.kind + ", " + count(r.vertices, "vertex", "vertices") + ", " +
-                               (r.lines.empty() ? count(r.cells) + ' ' : std::string()) + r.cells_name);
+                               (r.lines.empty() ? count(r.cells, singular, r.cells_name) : r.cells_name));
     for (const auto& [label, text] : r.lines) lines.add(label, text);
     if (r.has_map && r.lines.empty())
         lines.add("map", count(r.map.flipped) + " of " + count(r.cells) + " inverted at the start" +

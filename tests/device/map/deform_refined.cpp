@@ -16,7 +16,7 @@ TEST_CASE("deform with refinement: pins that turn an element over are met on a r
     params.constraints = constraints(problem.rest);
     for (taut::idx v = 0; v < problem.rest.vertex_count(); ++v)
         params.constraints.pin(v, problem.initial[static_cast<std::size_t>(v)]);
-    CHECK(deform(q, problem.rest, params, {}).report.outcome == outcome::infeasible);
+    CHECK(deform(q, problem.rest, params).report.outcome == outcome::infeasible);
     const auto found = deform(q, problem.rest, params, {});
     REQUIRE(found.result);
     CHECK(found.result.report.pins_held);
