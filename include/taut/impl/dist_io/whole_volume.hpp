@@ -31,8 +31,8 @@ public:
             {
                 if (all_.rank() != 0) return;
                 file_ = io::read_volume_file(path);
-                parts = std::make_unique<io::impl::corner_simplices<tetrahedron>>(
-                    file_.corner_simplices<tetrahedron>());
+                parts =
+                    std::make_unique<io::impl::corner_simplices<tetrahedron>>(file_.corner_simplices<tetrahedron>());
                 mixed = parts->overlapping;
                 cells = parts->cells.back() + 1;
                 format = file_.format;

@@ -233,8 +233,8 @@ struct volume_file
     mesh<triangle> triangles() const;
 
     /// Corner simplices of cells: one per corner with `dimension` edges, spanned by these edges: 4 per quad, 4 per
-    /// pyramid (at the corners of its base), 6 per wedge, 8 per hexahedron; cells of lower dimension have none. That all
-    /// are positive is necessary for a wedge, pyramid or hexahedron to be valid, not sufficient
+    /// pyramid (at the corners of its base), 6 per wedge, 8 per hexahedron; cells of lower dimension have none. That
+    /// all are positive is necessary for a wedge, pyramid or hexahedron to be valid, not sufficient
     /// (exact/cell_validity.hpp decides it); for a quad it is both. Throws mesh_error (empty) as tetrahedra() does;
     /// triangles: also where the file has dimension 3.
     ///

@@ -199,7 +199,7 @@ impl::corner_simplices<Element> volume_file::corner_simplices(std::span<const id
 
 } // namespace taut::io
 
-template taut::io::impl::corner_simplices<taut::tetrahedron> taut::io::volume_file::corner_simplices(
-    std::span<const taut::idx>) const;
-template taut::io::impl::corner_simplices<taut::triangle> taut::io::volume_file::corner_simplices(
-    std::span<const taut::idx>) const;
+template taut::io::impl::corner_simplices<taut::tetrahedron>
+    taut::io::volume_file::corner_simplices(std::span<const taut::idx>) const;
+template taut::io::impl::corner_simplices<taut::triangle>
+    taut::io::volume_file::corner_simplices(std::span<const taut::idx>) const;
