@@ -32,6 +32,9 @@ test_input()
     error_says 'plane.mesh: a volume, or a mesh of the plane; surfaces are read from .obj'
     expect 3 smooth word.obj -o out.obj
     error_says 'word.obj: a surface in space; volumes are read from .mesh'
+    printf 'glTF' >model.glb
+    expect 3 unwrap model.glb -o out.obj
+    error_says 'model.glb: a model of glTF; surfaces are read from .* for .taut atlas.'
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n' >points.obj
     expect 4 atlas points.obj -o out.obj
     error_says 'points.obj: the mesh has no triangles'

@@ -69,10 +69,11 @@ constexpr std::string_view name_of(volume_format format)
     if (!std::filesystem::exists(path, unknown) && !unknown)
         throw io_error(path.string(), std::generic_category().message(ENOENT));
     if (std::filesystem::is_directory(path, unknown)) throw io_error(path.string(), a_folder);
-    const char* const kind = format_of_name(path) != surface_format::automatic ? "a surface in space"
-                             : volume_format_of_name(path) != volume_format::automatic
-                                 ? "a volume, or a mesh of the plane"
-                                 : "an unknown kind of file";
+    const char* const kind =
+        format_of_name(path) != surface_format::automatic                     ? "a surface in space"
+        : volume_format_of_name(path) != volume_format::automatic             ? "a volume, or a mesh of the plane"
+        : small_extension(path) == ".gltf" || small_extension(path) == ".glb" ? "a model of glTF"
+                                                                              : "an unknown kind of file";
     throw io_error(path.string(), std::string(kind) + "; " + wanted + ", from other names if the format is given");
 }
 
