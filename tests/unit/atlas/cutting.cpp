@@ -248,6 +248,15 @@ TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
     check_no_flips(rest, flat);
 }
 
+TEST_CASE("coarse surface: ends when it is told to")
+{
+    const auto m = test::ball(40);
+    int asked = 0;
+    const auto coarse = make_coarse(m, facets(m), 200, [&] { return ++asked < 2; });
+    CHECK(asked > 1);
+    CHECK(std::ssize(coarse.cells) > 200);
+}
+
 TEST_CASE("crumbs: a small chart goes back to its neighbour, unless something lies there")
 {
     constexpr idx n = 12, few = 2; // squares a side, of the crumb

@@ -87,7 +87,8 @@ public:
 
     /// Goes on until there are `target` triangles, or nothing can be taken away any more.
     /// least_cosine: cosine between normals of a triangle before and after, at least
-    void run(idx target, double least_cosine)
+    /// proceed: asked now and then: go on?
+    void run(idx target, double least_cosine, const std::function<bool()>& proceed)
     {
         least_cosine_ = least_cosine;
         scale_ = 2 * area_ / target;
@@ -103,8 +104,10 @@ public:
         for (const candidate& c : first)
             if (c.to >= 0) queue.push(c);
         std::vector<idx> ring;
-        while (left_ > target && !queue.empty())
+        for (std::size_t turn = 1; left_ > target && !queue.empty(); ++turn)
         {
+            constexpr std::size_t often = 4096;
+            if (turn % often == 0 && proceed && !proceed()) return;
             const candidate c = queue.top();
             queue.pop();
             if (head_[u(c.from)] < 0) continue;
@@ -318,8 +321,10 @@ private:
 };
 
 /// A surface of about `target` triangles for what is large; the surface itself if it has no more.
-/// m: an oriented manifold; f: its facets. Deterministic. O(n log n).
-inline coarse_surface make_coarse(const mesh<triangle>& m, const facet_table& f, idx target)
+/// m: an oriented manifold; f: its facets; proceed: asked now and then, if given, whether to go on; else the surface
+/// has more triangles. Deterministic. O(n log n).
+inline coarse_surface make_coarse(const mesh<triangle>& m, const facet_table& f, idx target,
+                                  const std::function<bool()>& proceed = {})
 {
     if (m.cell_count() <= target)
     {
@@ -328,9 +333,9 @@ inline coarse_surface make_coarse(const mesh<triangle>& m, const facet_table& f,
         return same;
     }
     decimating one(m, f);
-    one.run(target, 0.1);
+    one.run(target, 0.1, proceed);
     // Where noise is as large as triangles, normals say nothing.
-    if (one.triangles() > target + target / 4) one.run(target, -2.0);
+    if (one.triangles() > target + target / 4 && (!proceed || proceed())) one.run(target, -2.0, proceed);
     return one.result();
 }
 

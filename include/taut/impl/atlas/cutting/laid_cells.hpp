@@ -87,8 +87,9 @@ inline void relax_cells(const atlas_run& run, const atlas_surface& of, laid_surf
     auto parted = laid;
     for (std::size_t k = 0; k < maps.charts.size(); ++k)
         if (crossing[k] && maps.charts[k].valid) own.write(k, maps.charts[k].energy, maps.uv, parted);
+    // Charts are taken or refused by themselves below, so none gets anything of another.
     part_laid(of.surface, {parted.seam, parted.uv, some},
-              {of.prices(), of.params.charts.seams, of.params.charts.max_distortion});
+              {.price = of.prices(), .seams = of.params.charts.seams, .give = false});
     measure(of.surface, some, parted);
     std::vector<char> refused(maps.charts.size(), 0);
     for (const idx c : some)

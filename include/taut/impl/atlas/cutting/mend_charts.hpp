@@ -76,7 +76,7 @@ inline std::vector<char> part_overlaps(const atlas_surface& of, chart_set& set, 
     std::sort(some.begin(), some.end());
     auto flat = laid(set);
     if (!part_laid(of.surface, {flat.seam, flat.uv, some},
-                   {of.prices(), of.params.charts.seams, of.params.charts.max_distortion}))
+                   {.price = of.prices(), .seams = of.params.charts.seams, .bound = of.params.charts.max_distortion}))
         return bad;
     set = cut(of, std::move(flat));
     measure(set);

@@ -96,6 +96,7 @@ struct laid_parting
 {
     std::span<const double> price;           ///< what a seam counts, one a side of the surface
     std::span<const char> seams;             ///< sides that stay seams, or empty
+    bool give = true;                        ///< what is small to neighbours
     double bound = crumb_giving::bad_energy; ///< of the mean energy of a chart that is given to its neighbour
 };
 
@@ -108,7 +109,7 @@ inline bool part_laid(const mesh<triangle>& m, const laid_seams& laid, const lai
     if (cut_layers(own.rest, own.flat) == 0) return false;
     const auto charts = [&] { return pieces_between(own.rest.facets, own.flat.seam).second; };
     constexpr int turns = 3;
-    for (int turn = 0; turn < turns; ++turn)
+    for (int turn = 0; how.give && turn < turns; ++turn)
     {
         auto tried = own.flat;
         if (crumb_giving(own.rest, tried, how.bound).run() == 0) break;

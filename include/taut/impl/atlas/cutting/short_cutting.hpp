@@ -246,7 +246,9 @@ private:
         p.facets = facets(*p.surface);
         coarse_surface coarse =
             make_coarse(*p.surface, p.facets,
-                        p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count());
+                        p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count(),
+                        [this] { return proceed(); });
+        if (stopped_) return;
         p.coarser = coarse.cells.size() < p.surface->cells().size();
         // Patches of so many triangles have borders that are longer than seams are searched for.
         constexpr idx patch = 100;
