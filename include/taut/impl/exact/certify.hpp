@@ -145,4 +145,14 @@ certificate certify(std::span<const std::array<idx, D + 1>> cells, std::span<con
     return result;
 }
 
+// Compiled once, with the bodies.
+extern template certificate certify<2>(std::span<const std::array<idx, 3>>, std::span<const vec<2>>,
+                                       std::span<const double>, std::size_t, std::span<const idx>);
+extern template certificate certify<3>(std::span<const std::array<idx, 4>>, std::span<const vec<3>>,
+                                       std::span<const double>, std::size_t, std::span<const idx>);
+
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/exact/certify.ipp>
+#endif

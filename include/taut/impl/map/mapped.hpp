@@ -1,66 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <taut/impl/map/made_convex.hpp>
-#include <taut/impl/map/overlap/keep_apart.hpp>
-#include <taut/impl/map/run_result.hpp>
-#include <taut/impl/map/starts.hpp>
+#include <taut/impl/compute/queue.hpp>
+#include <taut/impl/map/map_result.hpp>
+#include <taut/impl/map/parameterize_params.hpp>
+#include <taut/impl/map/run_clock.hpp>
+#include <taut/impl/map/run_surface.hpp>
 
 namespace taut::impl
 {
 
-// Implementation of parameterize.hpp; include that one.
-
-inline map_result solved(const map_run& run);
-
-/// Start on the finest level that replaces one from coarser levels whose map could not be certified.
-inline run_start second_start(const map_run& run, const run_start& coarse, const attempt& failed)
-{
-    run_start start = make_start(run, solved, on_the_mesh);
-    std::vector<std::string> notes = coarse.notes;
-    notes.insert(notes.end(), failed.notes.begin(), failed.notes.end());
-    notes.push_back("the coarse start failed (" + failed.descent->failure + "); a barycentric start was made");
-    start.notes.insert(start.notes.begin(), notes.begin(), notes.end());
-    start.levels = failed.descent->levels;
-    if (start.untangling.empty()) start.untangling = coarse.untangling;
-    return start;
-}
-
-/// Runs the phases between preparation and placement of the map: start, attempts to minimise it, certificate.
-/// The map is in normalised units.
-inline map_result solved(const map_run& run)
-{
-    const run_start start = make_start(run, solved);
-    if (!start.ready()) return unsolved_result(run, start);
-    attempt first = attempt_in_turns(run, start);
-    if (first.certified || first.stopped || !start.coarse) return solved_result(run, start, std::move(first));
-
-    run.clock.has_result(false);
-    if (!run.clock.proceed()) return stopped_result(run, start, std::move(first));
-    const run_start second = second_start(run, start, first);
-    if (!second.ready()) return unsolved_result(run, second);
-    return solved_result(run, second, attempt_in_turns(run, second));
-}
-
 /// Does all of parameterize() except the counters. params: validated.
-inline map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params,
-                         run_clock& clock)
-{
-    const map_run run(q, surface, params, clock);
-    map_result found = solved(run);
-    if (params.no_overlap) found = kept_apart(run, std::move(found));
-    found = made_convex(run, std::move(found));
-    map_result result = in_user_units(run, placed(run, std::move(found)));
-    tell_concave(run, result);
-    if (params.no_overlap) result = certified_apart(run, std::move(result));
-    clock.stages.add({.stage = "certify", .vertices = run.vertices()});
-    result.report.stages = clock.stages.stages();
-    return result;
-}
+map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock);
 
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/map/mapped.ipp>
+#endif

@@ -68,6 +68,12 @@ inline std::vector<char> boundary_flags(std::size_t vertices, std::span<const st
     return flags;
 }
 
+// Compiled once, with the bodies.
+extern template std::vector<std::array<idx, 2>> boundary_facets(const mesh<triangle>&, const facet_table&);
+extern template std::vector<std::array<idx, 2>> boundary_facets(const mesh<triangle>&);
+extern template std::vector<std::array<idx, 3>> boundary_facets(const mesh<tetrahedron>&, const facet_table&);
+extern template std::vector<std::array<idx, 3>> boundary_facets(const mesh<tetrahedron>&);
+
 } // namespace taut::impl
 
 #ifdef TAUT_IMPLEMENTATION

@@ -40,3 +40,13 @@ std::vector<std::vector<idx>> boundary_loops(const mesh<triangle>& m, const impl
 }
 
 } // namespace taut
+
+namespace taut::impl
+{
+
+template std::vector<std::array<idx, 2>> boundary_facets(const mesh<triangle>&, const facet_table&);
+template std::vector<std::array<idx, 2>> boundary_facets(const mesh<triangle>&);
+template std::vector<std::array<idx, 3>> boundary_facets(const mesh<tetrahedron>&, const facet_table&);
+template std::vector<std::array<idx, 3>> boundary_facets(const mesh<tetrahedron>&);
+
+} // namespace taut::impl

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -30,43 +31,10 @@ struct cell_data
     bool empty() const { return weights.empty() && attributes.empty() && directions.empty(); }
 
     /// Throws parameter_error that names the field and the cell.
-    void validate(std::size_t cells) const
-    {
-        const auto sized = [&](std::size_t n, std::size_t each, const char* field)
-        {
-            if (n != 0 && n != cells * each)
-                throw parameter_error(field, std::to_string(n) + " numbers for " + std::to_string(cells) + " cells");
-        };
-        sized(weights.size(), 1, "data.weights");
-        sized(attributes.size(), attribute_count, "data.attributes");
-        sized(directions.size(), 1, "data.directions");
-        if (attribute_count > 0 && attributes.empty()) throw parameter_error("data.attributes", "are missing");
-        const auto refuse = [](const char* field, std::size_t c, const char* why)
-        { throw parameter_error(field, "of cell " + std::to_string(c) + ' ' + why); };
-        for (std::size_t c = 0; c < weights.size(); ++c)
-            if (!(weights[c] > 0) || !std::isfinite(weights[c]))
-                refuse("data.weights", c, "must be positive and finite");
-        for (std::size_t i = 0; i < attributes.size(); ++i)
-            if (!std::isfinite(attributes[i])) refuse("data.attributes", i / attribute_count, "must be finite");
-        for (std::size_t c = 0; c < directions.size(); ++c)
-        {
-            const double length = glm::dot(directions[c], directions[c]);
-            if (!(length > 0) || !std::isfinite(length)) refuse("data.directions", c, "must be finite and not zero");
-        }
-    }
+    void validate(std::size_t cells) const;
 
     /// For cells in other numbers.
-    cell_data reordered(const impl::permutation& cells) const
-    {
-        cell_data r;
-        r.attribute_count = attribute_count;
-        if (!weights.empty()) r.weights = cells.apply(weights);
-        if (!directions.empty()) r.directions = cells.apply(directions);
-        for (const idx c : cells.new_to_old)
-            for (std::size_t k = 0; k < attribute_count; ++k)
-                r.attributes.push_back(attributes[static_cast<std::size_t>(c) * attribute_count + k]);
-        return r;
-    }
+    cell_data reordered(const impl::permutation& cells) const;
 
     /// The mean of each attribute over the cells.
     std::vector<double> mean_attributes() const
@@ -93,57 +61,13 @@ public:
 
     /// cells: arrays of point numbers.
     template <class Cells>
-    averaged_cell_data(const cell_data& data, const Cells& cells, std::size_t points) : count_(data.attribute_count)
-    {
-        if (data.empty()) return;
-        std::vector<double> around(points, 0.0);
-        if (!data.weights.empty()) weights_.assign(points, 0.0);
-        attributes_.assign(points * count_, 0.0);
-        if (!data.directions.empty()) directions_.assign(points, vec3(0.0));
-        for (std::size_t c = 0; c < cells.size(); ++c)
-            for (const idx vertex : cells[c])
-            {
-                const auto v = static_cast<std::size_t>(vertex);
-                around[v] += 1;
-                if (!weights_.empty()) weights_[v] += data.weights[c];
-                for (std::size_t k = 0; k < count_; ++k) attributes_[v * count_ + k] += data.attributes[c * count_ + k];
-                if (!directions_.empty()) add(directions_[v], glm::normalize(data.directions[c]));
-            }
-        for (std::size_t v = 0; v < points; ++v)
-        {
-            const double n = std::max(around[v], 1.0);
-            if (!weights_.empty()) weights_[v] /= n;
-            for (std::size_t k = 0; k < count_; ++k) attributes_[v * count_ + k] /= n;
-        }
-    }
+    averaged_cell_data(const cell_data& data, const Cells& cells, std::size_t points);
 
     bool empty() const { return weights_.empty() && attributes_.empty() && directions_.empty(); }
 
     /// For cells whose corners are the points numbers[corner].
     template <class Cells>
-    cell_data at(const Cells& cells, const std::vector<idx>& numbers) const
-    {
-        cell_data r;
-        r.attribute_count = count_;
-        for (const auto& cell : cells)
-        {
-            const auto n = static_cast<double>(cell.size());
-            double weight = 0;
-            std::vector<double> attributes(count_, 0.0);
-            vec3 direction(0.0);
-            for (const idx corner : cell)
-            {
-                const auto v = static_cast<std::size_t>(numbers[static_cast<std::size_t>(corner)]);
-                if (!weights_.empty()) weight += weights_[v] / n;
-                for (std::size_t k = 0; k < count_; ++k) attributes[k] += attributes_[v * count_ + k] / n;
-                if (!directions_.empty()) add(direction, directions_[v]);
-            }
-            if (!weights_.empty()) r.weights.push_back(weight);
-            r.attributes.insert(r.attributes.end(), attributes.begin(), attributes.end());
-            if (!directions_.empty()) r.directions.push_back(direction);
-        }
-        return r;
-    }
+    cell_data at(const Cells& cells, const std::vector<idx>& numbers) const;
 
 private:
     static void add(vec3& sum, const vec3& d) { sum += glm::dot(sum, d) < 0 ? -d : d; }
@@ -153,4 +77,67 @@ private:
     std::vector<vec3> directions_;
 };
 
+template <class Cells>
+averaged_cell_data::averaged_cell_data(const cell_data& data, const Cells& cells, std::size_t points)
+    : count_(data.attribute_count)
+{
+    if (data.empty()) return;
+    std::vector<double> around(points, 0.0);
+    if (!data.weights.empty()) weights_.assign(points, 0.0);
+    attributes_.assign(points * count_, 0.0);
+    if (!data.directions.empty()) directions_.assign(points, vec3(0.0));
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        for (const idx vertex : cells[c])
+        {
+            const auto v = static_cast<std::size_t>(vertex);
+            around[v] += 1;
+            if (!weights_.empty()) weights_[v] += data.weights[c];
+            for (std::size_t k = 0; k < count_; ++k) attributes_[v * count_ + k] += data.attributes[c * count_ + k];
+            if (!directions_.empty()) add(directions_[v], glm::normalize(data.directions[c]));
+        }
+    for (std::size_t v = 0; v < points; ++v)
+    {
+        const double n = std::max(around[v], 1.0);
+        if (!weights_.empty()) weights_[v] /= n;
+        for (std::size_t k = 0; k < count_; ++k) attributes_[v * count_ + k] /= n;
+    }
+}
+
+template <class Cells>
+cell_data averaged_cell_data::at(const Cells& cells, const std::vector<idx>& numbers) const
+{
+    cell_data r;
+    r.attribute_count = count_;
+    for (const auto& cell : cells)
+    {
+        const auto n = static_cast<double>(cell.size());
+        double weight = 0;
+        std::vector<double> attributes(count_, 0.0);
+        vec3 direction(0.0);
+        for (const idx corner : cell)
+        {
+            const auto v = static_cast<std::size_t>(numbers[static_cast<std::size_t>(corner)]);
+            if (!weights_.empty()) weight += weights_[v] / n;
+            for (std::size_t k = 0; k < count_; ++k) attributes[k] += attributes_[v * count_ + k] / n;
+            if (!directions_.empty()) add(direction, directions_[v]);
+        }
+        if (!weights_.empty()) r.weights.push_back(weight);
+        r.attributes.insert(r.attributes.end(), attributes.begin(), attributes.end());
+        if (!directions_.empty()) r.directions.push_back(direction);
+    }
+    return r;
+}
+
+// Compiled once, with the bodies.
+extern template averaged_cell_data::averaged_cell_data(const cell_data&, const std::vector<std::array<idx, 3>>&,
+                                                       std::size_t);
+extern template cell_data averaged_cell_data::at(const std::vector<std::array<idx, 3>>&, const std::vector<idx>&) const;
+extern template averaged_cell_data::averaged_cell_data(const cell_data&, const std::vector<std::array<idx, 4>>&,
+                                                       std::size_t);
+extern template cell_data averaged_cell_data::at(const std::vector<std::array<idx, 4>>&, const std::vector<idx>&) const;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/cell_data.ipp>
+#endif

@@ -151,31 +151,34 @@ struct ideal_elements
     /// Computes the ideal elements of the mesh times `scale`: W^-1 in 1 / length and measure in length^D of the scaled
     /// mesh.
     /// Throws mesh_error (degenerate_cell, inverted_cell) with every cell that has no ideal element.
-    explicit ideal_elements(const mesh<Element>& m, double scale = 1.0)
-        : inverse(static_cast<std::size_t>(m.cell_count())), measure(inverse.size())
-    {
-        const double unit = impl::unit_scale(m), f = scale / unit;
-        const double measure_scale = Element::measure_factor * (D == 2 ? f * f : f * f * f);
-        std::atomic<bool> bad{false};
-        impl::parallel_for(inverse.size(),
-                           [&](std::size_t begin, std::size_t end)
-                           {
-                               for (std::size_t c = begin; c < end; ++c)
-                               {
-                                   const mat<D> W = impl::ideal_of(m, static_cast<idx>(c), unit);
-                                   if (!(Element::flatness(W) > impl::flattest)) bad = true;
-                                   double det = measure_scale;
-                                   for (int k = 0; k < D; ++k) det *= W[k][k];
-                                   inverse[c] = impl::invert_upper(W) / f;
-                                   measure[c] = det;
-                               }
-                           });
-        if (!bad) return;
-        auto [flat, inverted] = impl::bad_rest_cells(m);
-        if (!flat.empty()) throw mesh_error(describe<Element>(mesh_error::degenerate_cell, std::move(flat)));
-        if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_error::inverted_cell, std::move(inverted)));
-    }
+    explicit ideal_elements(const mesh<Element>& m, double scale = 1.0);
 };
+
+template <class Element>
+ideal_elements<Element>::ideal_elements(const mesh<Element>& m, double scale)
+    : inverse(static_cast<std::size_t>(m.cell_count())), measure(inverse.size())
+{
+    const double unit = impl::unit_scale(m), f = scale / unit;
+    const double measure_scale = Element::measure_factor * (D == 2 ? f * f : f * f * f);
+    std::atomic<bool> bad{false};
+    impl::parallel_for(inverse.size(),
+                       [&](std::size_t begin, std::size_t end)
+                       {
+                           for (std::size_t c = begin; c < end; ++c)
+                           {
+                               const mat<D> W = impl::ideal_of(m, static_cast<idx>(c), unit);
+                               if (!(Element::flatness(W) > impl::flattest)) bad = true;
+                               double det = measure_scale;
+                               for (int k = 0; k < D; ++k) det *= W[k][k];
+                               inverse[c] = impl::invert_upper(W) / f;
+                               measure[c] = det;
+                           }
+                       });
+    if (!bad) return;
+    auto [flat, inverted] = impl::bad_rest_cells(m);
+    if (!flat.empty()) throw mesh_error(describe<Element>(mesh_error::degenerate_cell, std::move(flat)));
+    if (!inverted.empty()) throw mesh_error(describe<Element>(mesh_error::inverted_cell, std::move(inverted)));
+}
 
 /// Elements with the edges from corner 0 that are the columns of matrices, times `scale`, one per cell.
 /// Throws parameter_error of that name for the first that is flat or inverted.
@@ -232,4 +235,14 @@ ideal_elements<Element> regular_elements(std::size_t count, double measure)
     return {std::vector<mat<D>>(count, impl::invert_upper(W) / edge), std::vector<double>(count, each)};
 }
 
+// Compiled once, with the bodies.
+extern template std::pair<std::vector<idx>, std::vector<idx>> bad_rest_cells(const mesh<triangle>&);
+extern template std::pair<std::vector<idx>, std::vector<idx>> bad_rest_cells(const mesh<tetrahedron>&);
+extern template struct ideal_elements<triangle>;
+extern template struct ideal_elements<tetrahedron>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/ideal.ipp>
+#endif

@@ -56,4 +56,14 @@ csr vertex_neighbours(const mesh<Element>& m)
     return r;
 }
 
+// Compiled once, with the bodies.
+extern template csr vertex_corners(const mesh<triangle>&);
+extern template csr vertex_neighbours(const mesh<triangle>&);
+extern template csr vertex_corners(const mesh<tetrahedron>&);
+extern template csr vertex_neighbours(const mesh<tetrahedron>&);
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/incidence.ipp>
+#endif

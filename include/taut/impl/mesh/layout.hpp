@@ -70,18 +70,7 @@ struct layout
 
     /// The same with a scale, a power of two: of a part of a mesh that of the whole.
     layout(const mesh<Element>& local, mesh_order numbers, idx free, const ideal_elements<Element>& ideal,
-           double by_scale)
-        : order(std::move(numbers)),
-          free_count(free),
-          vertex_count(local.vertex_count()),
-          cell_count(local.cell_count()),
-          scale(by_scale),
-          vertex_corners(taut::impl::vertex_corners(local))
-    {
-        cell_stride = padded(local.cells().size(), step);
-        vertex_stride = padded(local.points().size(), step);
-        spread(local.cells(), ideal);
-    }
+           double by_scale);
 
     /// The scale of cells that have a measure together: a power of two.
     static double usual_scale(double cells, double measure)
@@ -91,60 +80,13 @@ struct layout
 
     /// Takes what the user says of the cells, in the numbers of this layout; local: the mesh that it is of. Throws
     /// parameter_error.
-    void attach(const cell_data& data, const mesh<Element>& local)
-    {
-        data.validate(local.cells().size());
-        const auto from = [&](std::size_t c) { return std::min(c, local.cells().size() - 1); };
-        attribute_count = data.attribute_count;
-        attributes.resize(attribute_count * cell_stride);
-        weight.resize(data.weights.empty() ? 0 : cell_stride);
-        frames.resize(data.directions.empty() ? 0 : D * D * cell_stride);
-        for (std::size_t c = 0; c < cell_stride; ++c)
-        {
-            if (!weight.empty()) weight[c] = data.weights[from(c)];
-            for (std::size_t k = 0; k < attribute_count; ++k)
-                attributes[k * cell_stride + c] = data.attributes[from(c) * attribute_count + k];
-            if (frames.empty()) continue;
-            const auto frame = Element::frame(local.rest(static_cast<idx>(from(c))), data.directions[from(c)]);
-            for (int column = 0; column < D; ++column)
-                for (int row = 0; row < D; ++row)
-                    frames[static_cast<std::size_t>(column * D + row) * cell_stride + c] = frame[column][row];
-        }
-    }
+    void attach(const cell_data& data, const mesh<Element>& local);
 
     /// Coordinates here, D x vertex_stride, from the user's.
-    std::vector<double> to_local(const std::vector<vec<D>>& x) const
-    {
-        std::vector<double> local(D * vertex_stride, 0.0);
-        parallel_for(x.size(),
-                     [&](std::size_t begin, std::size_t end)
-                     {
-                         for (std::size_t v = begin; v < end; ++v)
-                         {
-                             const vec<D>& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
-                             for (int k = 0; k < D; ++k)
-                                 local[static_cast<std::size_t>(k) * vertex_stride + v] = p[k] * scale;
-                         }
-                     });
-        return local;
-    }
+    std::vector<double> to_local(const std::vector<vec<D>>& x) const;
 
     /// The user's coordinates from those here; exact inverse of to_local.
-    std::vector<vec<D>> to_user(const std::vector<double>& local) const
-    {
-        std::vector<vec<D>> x(static_cast<std::size_t>(vertex_count));
-        parallel_for(x.size(),
-                     [&](std::size_t begin, std::size_t end)
-                     {
-                         for (std::size_t v = begin; v < end; ++v)
-                         {
-                             vec<D>& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
-                             for (int k = 0; k < D; ++k)
-                                 p[k] = local[static_cast<std::size_t>(k) * vertex_stride + v] / scale;
-                         }
-                     });
-        return x;
-    }
+    std::vector<vec<D>> to_user(const std::vector<double>& local) const;
 
 private:
     /// Braces, which evaluate from left to right: the order is used before it is moved.
@@ -152,27 +94,110 @@ private:
 
     /// The arrays from the cells, padded with copies of the last one of measure 0: their energy is as finite as that
     /// cell's and counts nothing, and no step they allow is shorter.
-    void spread(const std::vector<typename mesh<Element>::cell>& cells, const ideal_elements<Element>& ideal)
-    {
-        corners.resize((D + 1) * cell_stride);
-        inverse.resize(triangle_size * cell_stride);
-        measure.resize(cell_stride);
-        const double measure_scale = std::pow(scale, D), unscale = 1 / scale; // exact: a power of two
-        parallel_for(cell_stride,
-                     [&](std::size_t begin, std::size_t end)
-                     {
-                         for (std::size_t c = begin; c < end; ++c)
-                         {
-                             const std::size_t from = std::min(c, cells.size() - 1);
-                             for (std::size_t k = 0; k <= D; ++k) corners[k * cell_stride + c] = cells[from][k];
-                             std::size_t entry = 0;
-                             for (int column = 0; column < D; ++column)
-                                 for (int row = 0; row <= column; ++row)
-                                     inverse[entry++ * cell_stride + c] = ideal.inverse[from][column][row] * unscale;
-                             measure[c] = c < cells.size() ? ideal.measure[c] * measure_scale : 0.0;
-                         }
-                     });
-    }
+    void spread(const std::vector<typename mesh<Element>::cell>& cells, const ideal_elements<Element>& ideal);
 };
 
+template <class Element>
+layout<Element>::layout(const mesh<Element>& local, mesh_order numbers, idx free, const ideal_elements<Element>& ideal,
+                        double by_scale)
+    : order(std::move(numbers)),
+      free_count(free),
+      vertex_count(local.vertex_count()),
+      cell_count(local.cell_count()),
+      scale(by_scale),
+      vertex_corners(taut::impl::vertex_corners(local))
+{
+    cell_stride = padded(local.cells().size(), step);
+    vertex_stride = padded(local.points().size(), step);
+    spread(local.cells(), ideal);
+}
+
+template <class Element>
+void layout<Element>::attach(const cell_data& data, const mesh<Element>& local)
+{
+    data.validate(local.cells().size());
+    const auto from = [&](std::size_t c) { return std::min(c, local.cells().size() - 1); };
+    attribute_count = data.attribute_count;
+    attributes.resize(attribute_count * cell_stride);
+    weight.resize(data.weights.empty() ? 0 : cell_stride);
+    frames.resize(data.directions.empty() ? 0 : D * D * cell_stride);
+    for (std::size_t c = 0; c < cell_stride; ++c)
+    {
+        if (!weight.empty()) weight[c] = data.weights[from(c)];
+        for (std::size_t k = 0; k < attribute_count; ++k)
+            attributes[k * cell_stride + c] = data.attributes[from(c) * attribute_count + k];
+        if (frames.empty()) continue;
+        const auto frame = Element::frame(local.rest(static_cast<idx>(from(c))), data.directions[from(c)]);
+        for (int column = 0; column < D; ++column)
+            for (int row = 0; row < D; ++row)
+                frames[static_cast<std::size_t>(column * D + row) * cell_stride + c] = frame[column][row];
+    }
+}
+
+template <class Element>
+std::vector<double> layout<Element>::to_local(const std::vector<vec<D>>& x) const
+{
+    std::vector<double> local(D * vertex_stride, 0.0);
+    parallel_for(x.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t v = begin; v < end; ++v)
+                     {
+                         const vec<D>& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
+                         for (int k = 0; k < D; ++k)
+                             local[static_cast<std::size_t>(k) * vertex_stride + v] = p[k] * scale;
+                     }
+                 });
+    return local;
+}
+
+template <class Element>
+auto layout<Element>::to_user(const std::vector<double>& local) const -> std::vector<vec<D>>
+{
+    std::vector<vec<D>> x(static_cast<std::size_t>(vertex_count));
+    parallel_for(x.size(),
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t v = begin; v < end; ++v)
+                     {
+                         vec<D>& p = x[static_cast<std::size_t>(order.vertices.new_to_old[v])];
+                         for (int k = 0; k < D; ++k)
+                             p[k] = local[static_cast<std::size_t>(k) * vertex_stride + v] / scale;
+                     }
+                 });
+    return x;
+}
+
+template <class Element>
+void layout<Element>::spread(const std::vector<typename mesh<Element>::cell>& cells,
+                             const ideal_elements<Element>& ideal)
+{
+    corners.resize((D + 1) * cell_stride);
+    inverse.resize(triangle_size * cell_stride);
+    measure.resize(cell_stride);
+    const double measure_scale = std::pow(scale, D), unscale = 1 / scale; // exact: a power of two
+    parallel_for(cell_stride,
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t c = begin; c < end; ++c)
+                     {
+                         const std::size_t from = std::min(c, cells.size() - 1);
+                         for (std::size_t k = 0; k <= D; ++k) corners[k * cell_stride + c] = cells[from][k];
+                         std::size_t entry = 0;
+                         for (int column = 0; column < D; ++column)
+                             for (int row = 0; row <= column; ++row)
+                                 inverse[entry++ * cell_stride + c] = ideal.inverse[from][column][row] * unscale;
+                         measure[c] = c < cells.size() ? ideal.measure[c] * measure_scale : 0.0;
+                     }
+                 });
+}
+
+// Compiled once, with the bodies.
+extern template struct layout<triangle>;
+extern template struct layout<tetrahedron>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/mesh/layout.ipp>
+#endif

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,18 @@
 #include <taut/impl/mesh/describe.hpp>
 #include <taut/impl/mesh/tetrahedron.hpp>
 #include <taut/impl/mesh/triangle.hpp>
+
+namespace taut::impl
+{
+
+// Compiled once, with the bodies.
+extern template std::string list_first_elements<triangle>(std::size_t, const std::vector<idx>&, std::span<const idx>);
+extern template std::string list_first_elements<tetrahedron>(std::size_t, const std::vector<idx>&,
+                                                             std::span<const idx>);
+extern template mesh_finding describe<triangle>(mesh_error::fault_type, std::vector<idx>, std::span<const idx>);
+extern template mesh_finding describe<tetrahedron>(mesh_error::fault_type, std::vector<idx>, std::span<const idx>);
+
+} // namespace taut::impl
 
 namespace taut
 {
@@ -33,13 +46,7 @@ public:
     using cell = std::array<idx, static_cast<std::size_t>(corners)>;
 
     /// Makes a mesh. Throws mesh_error: empty, too_large, index_out_of_range, repeated_vertex, non_finite.
-    mesh(std::vector<vec3> points, std::vector<cell> cells) : points_(std::move(points)), cells_(std::move(cells))
-    {
-        require_sizes();
-        if (!any_fault()) return;
-        require_cells();
-        require_finite();
-    }
+    mesh(std::vector<vec3> points, std::vector<cell> cells);
 
     // Both arrays are packed: &points()[0].x is 3 doubles per vertex, cells()[0].data() `corners` 32-bit integers per
     // cell (with GLM as it comes; its aligned types have gaps).
@@ -58,83 +65,107 @@ public:
     }
 
 private:
-    void require_sizes() const
-    {
-        if (cells_.empty()) throw mesh_error(impl::describe<Element>(mesh_error::empty, {}));
-        // Corners and facets are numbered cell * corners + k in 32 bits.
-        constexpr std::size_t limit = std::numeric_limits<idx>::max();
-        if (points_.size() > limit || cells_.size() > limit / static_cast<std::size_t>(corners))
-            throw mesh_error(mesh_error::too_large, {},
-                             std::to_string(points_.size()) + " vertices and " + std::to_string(cells_.size()) + ' ' +
-                                 Element::names + " exceed 32-bit numbering; split the mesh");
-    }
+    void require_sizes() const;
 
     /// False for a cell that names a vertex twice. Throws mesh_error for one that names no vertex.
-    bool is_proper(std::size_t c) const
-    {
-        const idx n = vertex_count();
-        const cell& t = cells_[c];
-        bool twice = false;
-        for (std::size_t k = 0; k < t.size(); ++k)
-        {
-            if (t[k] < 0 || t[k] >= n)
-                throw mesh_error(mesh_error::index_out_of_range, {static_cast<idx>(c), t[k]},
-                                 std::string(Element::name) + ' ' + std::to_string(c) + ": vertex " +
-                                     std::to_string(t[k]) + (t[k] < 0 ? " < 0" : " >= " + std::to_string(n)));
-            for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
-        }
-        return !twice;
-    }
+    bool is_proper(std::size_t c) const;
 
     /// Returns whether there is an invalid vertex or cell; the ids are found afterwards.
-    bool any_fault() const
-    {
-        const auto n = static_cast<std::uint32_t>(vertex_count());
-        std::atomic<bool> fault{false};
-        impl::parallel_for(cells_.size(),
-                           [&](std::size_t begin, std::size_t end)
-                           {
-                               bool bad = false;
-                               for (std::size_t c = begin; c < end; ++c)
-                                   for (std::size_t k = 0; k < cells_[c].size(); ++k)
-                                   {
-                                       bad |= static_cast<std::uint32_t>(cells_[c][k]) >= n; // negative ones are large
-                                       for (std::size_t j = 0; j < k; ++j) bad |= cells_[c][j] == cells_[c][k];
-                                   }
-                               if (bad) fault = true;
-                           });
-        impl::parallel_for(points_.size(),
-                           [&](std::size_t begin, std::size_t end)
-                           {
-                               bool good = true;
-                               for (std::size_t v = begin; v < end; ++v) good &= is_finite(points_[v]);
-                               if (!good) fault = true;
-                           });
-        return fault;
-    }
+    bool any_fault() const;
 
     static bool is_finite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-    void require_cells() const
-    {
-        std::vector<idx> repeated;
-        for (std::size_t c = 0; c < cells_.size(); ++c)
-            if (!is_proper(c)) repeated.push_back(static_cast<idx>(c));
-        if (!repeated.empty())
-            throw mesh_error(impl::describe<Element>(mesh_error::repeated_vertex, std::move(repeated)));
-    }
+    void require_cells() const;
 
-    void require_finite() const
-    {
-        std::vector<idx> bad;
-        for (std::size_t v = 0; v < points_.size(); ++v)
-            if (!is_finite(points_[v])) bad.push_back(static_cast<idx>(v));
-        if (!bad.empty()) throw mesh_error(impl::describe<Element>(mesh_error::non_finite, std::move(bad)));
-    }
+    void require_finite() const;
 
     std::vector<vec3> points_;
     std::vector<cell> cells_;
 };
+
+template <class Element>
+mesh<Element>::mesh(std::vector<vec3> points, std::vector<cell> cells)
+    : points_(std::move(points)), cells_(std::move(cells))
+{
+    require_sizes();
+    if (!any_fault()) return;
+    require_cells();
+    require_finite();
+}
+
+template <class Element>
+void mesh<Element>::require_sizes() const
+{
+    if (cells_.empty()) throw mesh_error(impl::describe<Element>(mesh_error::empty, {}));
+    // Corners and facets are numbered cell * corners + k in 32 bits.
+    constexpr std::size_t limit = std::numeric_limits<idx>::max();
+    if (points_.size() > limit || cells_.size() > limit / static_cast<std::size_t>(corners))
+        throw mesh_error(mesh_error::too_large, {},
+                         std::to_string(points_.size()) + " vertices and " + std::to_string(cells_.size()) + ' ' +
+                             Element::names + " exceed 32-bit numbering; split the mesh");
+}
+
+template <class Element>
+bool mesh<Element>::is_proper(std::size_t c) const
+{
+    const idx n = vertex_count();
+    const cell& t = cells_[c];
+    bool twice = false;
+    for (std::size_t k = 0; k < t.size(); ++k)
+    {
+        if (t[k] < 0 || t[k] >= n)
+            throw mesh_error(mesh_error::index_out_of_range, {static_cast<idx>(c), t[k]},
+                             std::string(Element::name) + ' ' + std::to_string(c) + ": vertex " + std::to_string(t[k]) +
+                                 (t[k] < 0 ? " < 0" : " >= " + std::to_string(n)));
+        for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
+    }
+    return !twice;
+}
+
+template <class Element>
+bool mesh<Element>::any_fault() const
+{
+    const auto n = static_cast<std::uint32_t>(vertex_count());
+    std::atomic<bool> fault{false};
+    impl::parallel_for(cells_.size(),
+                       [&](std::size_t begin, std::size_t end)
+                       {
+                           bool bad = false;
+                           for (std::size_t c = begin; c < end; ++c)
+                               for (std::size_t k = 0; k < cells_[c].size(); ++k)
+                               {
+                                   bad |= static_cast<std::uint32_t>(cells_[c][k]) >= n; // negative ones are large
+                                   for (std::size_t j = 0; j < k; ++j) bad |= cells_[c][j] == cells_[c][k];
+                               }
+                           if (bad) fault = true;
+                       });
+    impl::parallel_for(points_.size(),
+                       [&](std::size_t begin, std::size_t end)
+                       {
+                           bool good = true;
+                           for (std::size_t v = begin; v < end; ++v) good &= is_finite(points_[v]);
+                           if (!good) fault = true;
+                       });
+    return fault;
+}
+
+template <class Element>
+void mesh<Element>::require_cells() const
+{
+    std::vector<idx> repeated;
+    for (std::size_t c = 0; c < cells_.size(); ++c)
+        if (!is_proper(c)) repeated.push_back(static_cast<idx>(c));
+    if (!repeated.empty()) throw mesh_error(impl::describe<Element>(mesh_error::repeated_vertex, std::move(repeated)));
+}
+
+template <class Element>
+void mesh<Element>::require_finite() const
+{
+    std::vector<idx> bad;
+    for (std::size_t v = 0; v < points_.size(); ++v)
+        if (!is_finite(points_[v])) bad.push_back(static_cast<idx>(v));
+    if (!bad.empty()) throw mesh_error(impl::describe<Element>(mesh_error::non_finite, std::move(bad)));
+}
 
 // Compiled once, with the bodies.
 extern template class mesh<triangle>;

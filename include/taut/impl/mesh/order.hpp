@@ -133,17 +133,20 @@ struct solution_order
 
     /// pinned: one flag per vertex of the mesh, or empty.
     template <class Element>
-    explicit solution_order(const mesh<Element>& m, const std::vector<bool>& pinned = {})
-        : order(locality_order(m)), free_count(m.vertex_count())
-    {
-        if (pinned.empty()) return;
-        auto numbers = std::move(order.vertices.new_to_old);
-        const auto first_pinned = std::stable_partition(
-            numbers.begin(), numbers.end(), [&](idx old) { return !pinned[static_cast<std::size_t>(old)]; });
-        free_count = static_cast<idx>(first_pinned - numbers.begin());
-        order.vertices = permutation(std::move(numbers));
-    }
+    explicit solution_order(const mesh<Element>& m, const std::vector<bool>& pinned = {});
 };
+
+template <class Element>
+solution_order::solution_order(const mesh<Element>& m, const std::vector<bool>& pinned)
+    : order(locality_order(m)), free_count(m.vertex_count())
+{
+    if (pinned.empty()) return;
+    auto numbers = std::move(order.vertices.new_to_old);
+    const auto first_pinned = std::stable_partition(numbers.begin(), numbers.end(),
+                                                    [&](idx old) { return !pinned[static_cast<std::size_t>(old)]; });
+    free_count = static_cast<idx>(first_pinned - numbers.begin());
+    order.vertices = permutation(std::move(numbers));
+}
 
 /// The mesh renumbered. The corners of each cell keep their order.
 template <class Element>
@@ -161,6 +164,14 @@ mesh<Element> permute(const mesh<Element>& m, const mesh_order& order)
                  });
     return {order.vertices.apply(m.points()), std::move(cells)};
 }
+
+// Compiled once, with the bodies.
+extern template mesh_order locality_order(const mesh<triangle>&);
+extern template solution_order::solution_order(const mesh<triangle>&, const std::vector<bool>&);
+extern template mesh<triangle> permute(const mesh<triangle>&, const mesh_order&);
+extern template mesh_order locality_order(const mesh<tetrahedron>&);
+extern template solution_order::solution_order(const mesh<tetrahedron>&, const std::vector<bool>&);
+extern template mesh<tetrahedron> permute(const mesh<tetrahedron>&, const mesh_order&);
 
 } // namespace taut::impl
 

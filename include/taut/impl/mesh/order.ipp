@@ -48,4 +48,11 @@ std::vector<idx> along_curve(const std::vector<vec3>& points)
     return order;
 }
 
+template mesh_order locality_order(const mesh<triangle>&);
+template solution_order::solution_order(const mesh<triangle>&, const std::vector<bool>&);
+template mesh<triangle> permute(const mesh<triangle>&, const mesh_order&);
+template mesh_order locality_order(const mesh<tetrahedron>&);
+template solution_order::solution_order(const mesh<tetrahedron>&, const std::vector<bool>&);
+template mesh<tetrahedron> permute(const mesh<tetrahedron>&, const mesh_order&);
+
 } // namespace taut::impl

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <taut/impl/compute/gather.hpp>
-#include <taut/impl/compute/vector_space.hpp>
 #include <taut/impl/energy/characteristic_gradient.hpp>
 #include <taut/impl/energy/characteristic_value.hpp>
+#include <taut/impl/objective/device_solvers.hpp>
 #include <taut/impl/objective/element_arrays.hpp>
 #include <taut/impl/objective/element_kernels.hpp>
 #include <taut/impl/objective/fixed_terms.hpp>
@@ -51,26 +51,7 @@ public:
     /// Shares kernels of the same energy and types with another objective.
     map_objective(queue q, std::shared_ptr<const layout<Element>> mesh_layout, const any_energy& energy,
                   energy::weighting weights, const real_types& types, std::shared_ptr<const kernels> traced,
-                  const point_constraints<D>& constraints = {})
-        : queue_(std::move(q)),
-          layout_(std::move(mesh_layout)),
-          types_(types),
-          space_(queue_, types.vector, D * layout_->vertex_stride),
-          reductions_(queue_),
-          kernels_(std::move(traced)),
-          arrays_(std::make_shared<element_arrays<Element>>(queue_, types.vector, *layout_, weights, energy)),
-          energies_(queue_, types.vector, kernels::trials * layout_->cell_stride),
-          one_(queue_, types.vector, std::array{1.0}),
-          limit_(queue_, types.vector, std::array{1.0}),
-          corner_gradients_(queue_, types.position, (D + 1) * D * layout_->cell_stride),
-          gather_(make_gather()),
-          springs_(queue_, types, *layout_, constraints.springs),
-          fixed_(queue_, types, *layout_),
-          gradient_scale_(characteristic_gradient(*layout_, energy, weights)),
-          value_scale_(characteristic_value<D>(energy))
-    {
-        fixed_.fix(*layout_, constraints.held, constraints.slides);
-    }
+                  const point_constraints<D>& constraints = {});
 
     const device_vectors& space() const { return space_; }
     const taut::impl::layout<Element>& layout() const { return *layout_; }
@@ -120,15 +101,7 @@ public:
     }
 
     /// The same; square = g'g.
-    double value_gradient(const point& x, vector& g, double& square)
-    {
-        gradient(x, g);
-        const auto sum = enqueue_sum();
-        const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
-        reductions_.fetch();
-        square = reductions_.value(norm);
-        return reductions_.value(sum);
-    }
+    double value_gradient(const point& x, vector& g, double& square);
 
     /// Computes the gradient g without a wait.
     void gradient(const point& x, vector& g)
@@ -155,58 +128,19 @@ public:
     }
 
     /// Elements that flip first along d, up to sixteen within twice the minimum step, in the user's numbering.
-    std::vector<int> capping(const point& x, const vector& d)
-    {
-        constexpr std::size_t most = 16;
-        const double least = max_step(x, d);
-        std::vector<double> flips(static_cast<std::size_t>(layout_->cell_count));
-        energies_.download(std::span(flips));
-        std::vector<int> found;
-        for (std::size_t c = 0; c < flips.size() && found.size() < most; ++c)
-            if (flips[c] <= 2 * least) found.push_back(layout_->order.cells.new_to_old[c]);
-        return found;
-    }
+    std::vector<int> capping(const point& x, const vector& d);
 
     /// Values f(x + u a[i] d) with u = min(most, fraction * max_step), which is returned. One wait in all.
     double capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
-                         std::span<double> out, double most = 1)
-    {
-        const auto capped = enqueue_capped_values(x, d, fraction, a, most);
-        reductions_.fetch();
-        return fold_capped_values(capped, fraction, out, most);
-    }
+                         std::span<double> out, double most = 1);
 
     /// The same with most = 1, and full = x + d with its gradient g; returns g'g second. Still one wait.
     std::pair<double, double> capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
-                                            std::span<double> out, point& full, vector& g)
-    {
-        constexpr double most = 1;
-        const auto capped = enqueue_capped_values(x, d, fraction, a, most);
-        step(x, 1, d, full);
-        gradient(full, g);
-        const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
-        reductions_.fetch();
-        return {fold_capped_values(capped, fraction, out, most), reductions_.value(norm)};
-    }
+                                            std::span<double> out, point& full, vector& g);
 
     /// Launches the kernels of Newton's method once, so that the driver compiles them; those of other methods are
     /// compiled at first use.
-    void warm_up(const point& x)
-    {
-        auto g = space_.make(), d = space_.make();
-        auto y = make_point();
-        value_gradient(x, g);
-        max_step(x, g);
-        const double a[8] = {};
-        double e[1];
-        values(x, g, std::span(a).first(1), e);
-        capped_values(x, g, 0.5, std::span(a).first(1), e);
-
-        space_.axpby(0, g, 0, d);
-        space_.dot(g, g);
-        step(x, 0, d, y);
-        queue_.finish();
-    }
+    void warm_up(const point& x);
 
     /// Norm of a gradient that is typical of the mesh: the same relative gradient then means the same on every mesh and
     /// scale. After Zhu, Bridson, Kaufman 2018 ("Blended cured quasi-Newton"), section 4.
@@ -222,29 +156,12 @@ public:
 
 protected:
     /// Energies and gradients of elements at x.
-    void element_gradients(const point& x)
-    {
-        kernels_->gradient(cells(),
-                           arrays_->with(x.data(), {{"energy", energies_}, {"corner_gradient", corner_gradients_}}));
-        springs_.add_energy(x, energies_);
-        springs_.add_gradient(x, corner_gradients_);
-    }
+    void element_gradients(const point& x);
 
     /// Applies a displacement d of fixed coordinates to the gradients of elements, which are those at the current
     /// point, in the model of `hessian`, not masked yet: g = the gradient at the others. f here, and by how much the
     /// model changes. One wait.
-    solve::impl::model_change move_held(const real_buffer& hessian, const vector& d, vector& g)
-    {
-        const auto sum = enqueue_sum();
-        gather_(corner_gradients_, g.data());
-        const auto before = reductions_.dot(g.data(), d.data(), space_.size());
-        fixed_.add_product(hessian, d, corner_gradients_);
-        gather_(corner_gradients_, g.data());
-        const auto after = reductions_.dot(g.data(), d.data(), space_.size());
-        fixed_.project(g);
-        reductions_.fetch();
-        return {reductions_.value(sum), (reductions_.value(before) + reductions_.value(after)) / 2};
-    }
+    solve::impl::model_change move_held(const real_buffer& hessian, const vector& d, vector& g);
 
     range cells() const { return {layout_->cell_stride, taut::impl::layout<Element>::step}; }
 
@@ -255,50 +172,11 @@ protected:
 
 private:
     /// Gathers rows of free vertices only: the others get zero.
-    gather make_gather()
-    {
-        const auto& corners = layout_->vertex_corners;
-        const auto rows = static_cast<std::size_t>(layout_->free_count);
-        const auto used = static_cast<std::size_t>(corners.offsets[rows]);
-        std::vector<idx> cell(used), corner(used);
-        parallel_for(used,
-                     [&](std::size_t begin, std::size_t end)
-                     {
-                         for (std::size_t k = begin; k < end; ++k)
-                         {
-                             cell[k] = corners.items[k] / Element::corners;
-                             corner[k] = corners.items[k] % Element::corners;
-                         }
-                     });
-        return gather(queue_, std::span(corners.offsets).first(rows + 1), cell, corner,
-                      {.components = D, .cell_stride = layout_->cell_stride, .vertex_stride = layout_->vertex_stride},
-                      types_.position, types_.vector);
-    }
+    gather make_gather();
 
     using sums = std::vector<reductions::result>;
 
-    sums enqueue_values(const point& x, const vector& d, const real_buffer& unit, std::span<const double> a)
-    {
-        sums results;
-        for (std::size_t first = 0; first < a.size(); first += kernels::trials)
-        {
-            const auto step = [&](std::size_t k) { return a[std::min(first + k, a.size() - 1)]; };
-            kernels_->along(cells(), arrays_->with(x.data(), {{"d", d.data()},
-                                                              {"unit", unit},
-                                                              {"energy", energies_},
-                                                              {"step0", step(0)},
-                                                              {"step1", step(1)},
-                                                              {"step2", step(2)},
-                                                              {"step3", step(3)}}));
-            springs_.add_energies(x, d, unit, std::array{step(0), step(1), step(2), step(3)}, energies_);
-            // Commands run in order: the next launch overwrites the energies after they are summed.
-            results.push_back(
-                reductions_.sum(energies_, {.count = std::min<std::size_t>(kernels::trials, a.size() - first),
-                                            .length = static_cast<std::size_t>(layout_->cell_count),
-                                            .stride = layout_->cell_stride}));
-        }
-        return results;
-    }
+    sums enqueue_values(const point& x, const vector& d, const real_buffer& unit, std::span<const double> a);
 
     struct capped_sums
     {
@@ -307,12 +185,7 @@ private:
     };
 
     capped_sums enqueue_capped_values(const point& x, const vector& d, double fraction, std::span<const double> a,
-                                      double most)
-    {
-        const auto least = enqueue_max_step(x, d);
-        reductions_.limit(least, fraction, most, limit_);
-        return {least, enqueue_values(x, d, limit_, a)};
-    }
+                                      double most);
 
     double fold_capped_values(const capped_sums& r, double fraction, std::span<double> out, double most) const
     {
@@ -362,4 +235,177 @@ private:
     double gradient_scale_, value_scale_;
 };
 
+template <class Element>
+map_objective<Element>::map_objective(queue q, std::shared_ptr<const impl::layout<Element>> mesh_layout,
+                                      const any_energy& energy, energy::weighting weights, const real_types& types,
+                                      std::shared_ptr<const kernels> traced, const point_constraints<D>& constraints)
+    : queue_(std::move(q)),
+      layout_(std::move(mesh_layout)),
+      types_(types),
+      space_(queue_, types.vector, D * layout_->vertex_stride),
+      reductions_(queue_),
+      kernels_(std::move(traced)),
+      arrays_(std::make_shared<element_arrays<Element>>(queue_, types.vector, *layout_, weights, energy)),
+      energies_(queue_, types.vector, kernels::trials * layout_->cell_stride),
+      one_(queue_, types.vector, std::array{1.0}),
+      limit_(queue_, types.vector, std::array{1.0}),
+      corner_gradients_(queue_, types.position, (D + 1) * D * layout_->cell_stride),
+      gather_(make_gather()),
+      springs_(queue_, types, *layout_, constraints.springs),
+      fixed_(queue_, types, *layout_),
+      gradient_scale_(characteristic_gradient(*layout_, energy, weights)),
+      value_scale_(characteristic_value<D>(energy))
+{
+    fixed_.fix(*layout_, constraints.held, constraints.slides);
+}
+
+template <class Element>
+double map_objective<Element>::value_gradient(const point& x, vector& g, double& square)
+{
+    gradient(x, g);
+    const auto sum = enqueue_sum();
+    const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
+    reductions_.fetch();
+    square = reductions_.value(norm);
+    return reductions_.value(sum);
+}
+
+template <class Element>
+std::vector<int> map_objective<Element>::capping(const point& x, const vector& d)
+{
+    constexpr std::size_t most = 16;
+    const double least = max_step(x, d);
+    std::vector<double> flips(static_cast<std::size_t>(layout_->cell_count));
+    energies_.download(std::span(flips));
+    std::vector<int> found;
+    for (std::size_t c = 0; c < flips.size() && found.size() < most; ++c)
+        if (flips[c] <= 2 * least) found.push_back(layout_->order.cells.new_to_old[c]);
+    return found;
+}
+
+template <class Element>
+double map_objective<Element>::capped_values(const point& x, const vector& d, double fraction,
+                                             std::span<const double> a, std::span<double> out, double most)
+{
+    const auto capped = enqueue_capped_values(x, d, fraction, a, most);
+    reductions_.fetch();
+    return fold_capped_values(capped, fraction, out, most);
+}
+
+template <class Element>
+std::pair<double, double> map_objective<Element>::capped_values(const point& x, const vector& d, double fraction,
+                                                                std::span<const double> a, std::span<double> out,
+                                                                point& full, vector& g)
+{
+    constexpr double most = 1;
+    const auto capped = enqueue_capped_values(x, d, fraction, a, most);
+    step(x, 1, d, full);
+    gradient(full, g);
+    const auto norm = reductions_.dot(g.data(), g.data(), space_.size());
+    reductions_.fetch();
+    return {fold_capped_values(capped, fraction, out, most), reductions_.value(norm)};
+}
+
+template <class Element>
+void map_objective<Element>::warm_up(const point& x)
+{
+    auto g = space_.make(), d = space_.make();
+    auto y = make_point();
+    value_gradient(x, g);
+    max_step(x, g);
+    const double a[8] = {};
+    double e[1];
+    values(x, g, std::span(a).first(1), e);
+    capped_values(x, g, 0.5, std::span(a).first(1), e);
+
+    space_.axpby(0, g, 0, d);
+    space_.dot(g, g);
+    step(x, 0, d, y);
+    queue_.finish();
+}
+
+template <class Element>
+void map_objective<Element>::element_gradients(const point& x)
+{
+    kernels_->gradient(cells(),
+                       arrays_->with(x.data(), {{"energy", energies_}, {"corner_gradient", corner_gradients_}}));
+    springs_.add_energy(x, energies_);
+    springs_.add_gradient(x, corner_gradients_);
+}
+
+template <class Element>
+solve::impl::model_change map_objective<Element>::move_held(const real_buffer& hessian, const vector& d, vector& g)
+{
+    const auto sum = enqueue_sum();
+    gather_(corner_gradients_, g.data());
+    const auto before = reductions_.dot(g.data(), d.data(), space_.size());
+    fixed_.add_product(hessian, d, corner_gradients_);
+    gather_(corner_gradients_, g.data());
+    const auto after = reductions_.dot(g.data(), d.data(), space_.size());
+    fixed_.project(g);
+    reductions_.fetch();
+    return {reductions_.value(sum), (reductions_.value(before) + reductions_.value(after)) / 2};
+}
+
+template <class Element>
+gather map_objective<Element>::make_gather()
+{
+    const auto& corners = layout_->vertex_corners;
+    const auto rows = static_cast<std::size_t>(layout_->free_count);
+    const auto used = static_cast<std::size_t>(corners.offsets[rows]);
+    std::vector<idx> cell(used), corner(used);
+    parallel_for(used,
+                 [&](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t k = begin; k < end; ++k)
+                     {
+                         cell[k] = corners.items[k] / Element::corners;
+                         corner[k] = corners.items[k] % Element::corners;
+                     }
+                 });
+    return gather(queue_, std::span(corners.offsets).first(rows + 1), cell, corner,
+                  {.components = D, .cell_stride = layout_->cell_stride, .vertex_stride = layout_->vertex_stride},
+                  types_.position, types_.vector);
+}
+
+template <class Element>
+auto map_objective<Element>::enqueue_values(const point& x, const vector& d, const real_buffer& unit,
+                                            std::span<const double> a) -> sums
+{
+    sums results;
+    for (std::size_t first = 0; first < a.size(); first += kernels::trials)
+    {
+        const auto step = [&](std::size_t k) { return a[std::min(first + k, a.size() - 1)]; };
+        kernels_->along(cells(), arrays_->with(x.data(), {{"d", d.data()},
+                                                          {"unit", unit},
+                                                          {"energy", energies_},
+                                                          {"step0", step(0)},
+                                                          {"step1", step(1)},
+                                                          {"step2", step(2)},
+                                                          {"step3", step(3)}}));
+        springs_.add_energies(x, d, unit, std::array{step(0), step(1), step(2), step(3)}, energies_);
+        // Commands run in order: the next launch overwrites the energies after they are summed.
+        results.push_back(reductions_.sum(energies_, {.count = std::min<std::size_t>(kernels::trials, a.size() - first),
+                                                      .length = static_cast<std::size_t>(layout_->cell_count),
+                                                      .stride = layout_->cell_stride}));
+    }
+    return results;
+}
+
+template <class Element>
+auto map_objective<Element>::enqueue_capped_values(const point& x, const vector& d, double fraction,
+                                                   std::span<const double> a, double most) -> capped_sums
+{
+    const auto least = enqueue_max_step(x, d);
+    reductions_.limit(least, fraction, most, limit_);
+    return {least, enqueue_values(x, d, limit_, a)};
+}
+
+// Compiled once, with the bodies.
+extern template class map_objective<triangle>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/map_objective.ipp>
+#endif

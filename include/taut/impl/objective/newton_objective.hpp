@@ -47,28 +47,7 @@ struct newton_kernels
 
 private:
     static traced_program traced(const queue& q, const any_energy& energy, const real_types& of,
-                                 capping_elements capping)
-    {
-        impl::expect_block_kernels(q, of.vector, Element::dimension);
-        const auto form = impl::form_for(q.device());
-        auto texts = decltype(first)::record(energy, of, form),
-             common = decltype(first)::record_common(energy, of, form);
-        std::vector<std::string> later;
-        const auto add = [&](kernel_text text)
-        {
-            later.push_back(text.name);
-            texts.push_back(std::move(text));
-        };
-        add(decltype(second)::record(energy, of, form));
-        if (relaxes(capping))
-        {
-            for (auto& text : relaxation_kernels<Element>::record(energy, of, form)) add(std::move(text));
-            for (auto& text : relaxation_kernels<Element>::record_common(of, form)) common.push_back(std::move(text));
-        }
-        traced_program p(q, std::move(texts), std::move(common));
-        p.share(later);
-        return p;
-    }
+                                 capping_elements capping);
 
     newton_kernels(const traced_program& p, const any_energy& energy, const real_types& of, capping_elements capping)
         : first(p), second(p), types(of)
@@ -78,6 +57,30 @@ private:
 
     static bool relaxes(capping_elements capping) { return Element::oriented && capping == capping_elements::relaxed; }
 };
+
+template <class Element>
+traced_program newton_kernels<Element>::traced(const queue& q, const any_energy& energy, const real_types& of,
+                                               capping_elements capping)
+{
+    impl::expect_block_kernels(q, of.vector, Element::dimension);
+    const auto form = impl::form_for(q.device());
+    auto texts = decltype(first)::record(energy, of, form), common = decltype(first)::record_common(energy, of, form);
+    std::vector<std::string> later;
+    const auto add = [&](kernel_text text)
+    {
+        later.push_back(text.name);
+        texts.push_back(std::move(text));
+    };
+    add(decltype(second)::record(energy, of, form));
+    if (relaxes(capping))
+    {
+        for (auto& text : relaxation_kernels<Element>::record(energy, of, form)) add(std::move(text));
+        for (auto& text : relaxation_kernels<Element>::record_common(of, form)) common.push_back(std::move(text));
+    }
+    traced_program p(q, std::move(texts), std::move(common));
+    p.share(later);
+    return p;
+}
 
 /// A map_objective that knows its Hessian (solve/objective.hpp, has_hessian): element Hessians are summed into
 /// block-sparse matrices on the device, and a multigrid V-cycle over the hierarchy of the mesh is the preconditioner.
@@ -97,61 +100,17 @@ public:
 
     /// host: made with the lane_form of the queue's device. constraints: besides the pins of the layout.
     newton_objective(queue q, plan host, const any_energy& energy, energy::weighting weights,
-                     std::shared_ptr<const kernels> traced, const point_constraints<D>& constraints = {})
-        : base(q, host.layout, energy, weights, traced->types,
-               std::shared_ptr<const element_kernels<Element>>(traced, &traced->first), constraints),
-          kernels_(std::move(traced)),
-          stand_in_(definite(energy.eigenvalues())),
-          hessian_(q, kernels_->types.vector, hessian_slots<D>::count * host.layout->cell_stride),
-          cycle_(q, kernels_->types.vector, std::move(host.cycle)),
-          assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))) // freed once they are on the device
-    {
-        if (!kernels_->relaxation) return;
-        const auto touched = constraints.touched(static_cast<std::size_t>(host.layout->vertex_count));
-        relaxation_.emplace(q, host.layout,
-                            std::shared_ptr<const relaxation_kernels<Element>>(kernels_, &*kernels_->relaxation),
-                            this->arrays(), touched);
-        if constexpr (eliminates)
-            elimination_.emplace(q, host.layout, this->arrays(), kernels_->first, kernels_->second, kernels_->types,
-                                 weights, energy, touched);
-    }
+                     std::shared_ptr<const kernels> traced, const point_constraints<D>& constraints = {});
 
     /// Replaces the constraints, as map_objective::constrain.
-    void constrain(const point_constraints<D>& c)
-    {
-        base::constrain(c);
-        if (!relaxation_) return;
-        const auto touched = c.touched(static_cast<std::size_t>(this->layout().vertex_count));
-        relaxation_->keep_still(touched);
-        if constexpr (eliminates) elimination_->keep_still(touched);
-    }
+    void constrain(const point_constraints<D>& c);
 
-    void linearize(const point& x, bool exact)
-    {
-        element_hessians(x, stand_in_);
-        assemble();
-        exact_ = exact;
-        if (!exact) return;
-        if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
-        element_hessians(x, definiteness::indefinite);
-        this->fixed().project_hessian(hessian_);
-        assemble_(hessian_, *indefinite_);
-    }
+    void linearize(const point& x, bool exact);
 
     /// Linearizes as linearize(x, false), with prescribed displacements towards the targets of aim(): d = a fraction of
     /// the remaining ones there and 0 elsewhere, g = the gradient at x + d in the model. Returns f(x), and the change
     /// of the model along d.
-    solve::impl::model_change linearize_towards(const point& x, double share, vector& d, vector& g)
-    {
-        d.data().fill(0);
-        this->fixed().gap(x, share, d);
-        this->element_gradients(x);
-        element_hessians(x, stand_in_);
-        const auto change = this->move_held(hessian_, d, g);
-        assemble();
-        exact_ = false;
-        return change;
-    }
+    solve::impl::model_change linearize_towards(const point& x, double share, vector& d, vector& g);
     void hessian_product(const vector& v, vector& out) { (exact_ ? *indefinite_ : cycle_.matrix()).multiply(v, out); }
     /// Applies the V-cycle between two projections where coordinates are fixed: symmetric and positive definite on the
     /// free ones.
@@ -175,15 +134,7 @@ public:
     }
 
     /// Does map_objective::warm_up, and launches the kernels of Newton's method.
-    void warm_up(point& x)
-    {
-        base::warm_up(x);
-        if (relaxation_) relaxation_->warm_up(x);
-        auto v = this->space().make(), w = this->space().make();
-        linearize(x, true);
-        hessian_product(v, w);
-        precondition(v, w);
-    }
+    void warm_up(point& x);
 
 private:
     static constexpr bool eliminates = std::is_same_v<Element, triangle>;
@@ -214,15 +165,77 @@ private:
     bool exact_ = false;
 };
 
-// Those of surfaces are compiled once, with the bodies; volume_objective.hpp says so of volumes.
-extern template class traced_element<2>;
-extern template class fixed_terms<triangle>;
-extern template class spring_terms<triangle>;
-extern template struct element_kernels<triangle>;
-extern template struct element_hessian_kernel<triangle>;
-extern template struct relaxation_kernels<triangle>;
-extern template struct element_arrays<triangle>;
-extern template class map_objective<triangle>;
+template <class Element>
+newton_objective<Element>::newton_objective(queue q, plan host, const any_energy& energy, energy::weighting weights,
+                                            std::shared_ptr<const kernels> traced,
+                                            const point_constraints<D>& constraints)
+    : base(q, host.layout, energy, weights, traced->types,
+           std::shared_ptr<const element_kernels<Element>>(traced, &traced->first), constraints),
+      kernels_(std::move(traced)),
+      stand_in_(definite(energy.eigenvalues())),
+      hessian_(q, kernels_->types.vector, hessian_slots<D>::count * host.layout->cell_stride),
+      cycle_(q, kernels_->types.vector, std::move(host.cycle)),
+      assemble_(cycle_.matrix(), assembly_lists(std::move(host.assembly))) // freed once they are on the device
+{
+    if (!kernels_->relaxation) return;
+    const auto touched = constraints.touched(static_cast<std::size_t>(host.layout->vertex_count));
+    relaxation_.emplace(q, host.layout,
+                        std::shared_ptr<const relaxation_kernels<Element>>(kernels_, &*kernels_->relaxation),
+                        this->arrays(), touched);
+    if constexpr (eliminates)
+        elimination_.emplace(q, host.layout, this->arrays(), kernels_->first, kernels_->second, kernels_->types,
+                             weights, energy, touched);
+}
+
+template <class Element>
+void newton_objective<Element>::constrain(const point_constraints<D>& c)
+{
+    base::constrain(c);
+    if (!relaxation_) return;
+    const auto touched = c.touched(static_cast<std::size_t>(this->layout().vertex_count));
+    relaxation_->keep_still(touched);
+    if constexpr (eliminates) elimination_->keep_still(touched);
+}
+
+template <class Element>
+void newton_objective<Element>::linearize(const point& x, bool exact)
+{
+    element_hessians(x, stand_in_);
+    assemble();
+    exact_ = exact;
+    if (!exact) return;
+    if (!indefinite_) indefinite_.emplace(cycle_.matrix().like());
+    element_hessians(x, definiteness::indefinite);
+    this->fixed().project_hessian(hessian_);
+    assemble_(hessian_, *indefinite_);
+}
+
+template <class Element>
+solve::impl::model_change newton_objective<Element>::linearize_towards(const point& x, double share, vector& d,
+                                                                       vector& g)
+{
+    d.data().fill(0);
+    this->fixed().gap(x, share, d);
+    this->element_gradients(x);
+    element_hessians(x, stand_in_);
+    const auto change = this->move_held(hessian_, d, g);
+    assemble();
+    exact_ = false;
+    return change;
+}
+
+template <class Element>
+void newton_objective<Element>::warm_up(point& x)
+{
+    base::warm_up(x);
+    if (relaxation_) relaxation_->warm_up(x);
+    auto v = this->space().make(), w = this->space().make();
+    linearize(x, true);
+    hessian_product(v, w);
+    precondition(v, w);
+}
+
+// Compiled once, with the bodies; volume_objective.hpp says so of volumes.
 extern template struct newton_kernels<triangle>;
 extern template class newton_objective<triangle>;
 

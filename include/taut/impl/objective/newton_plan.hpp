@@ -27,12 +27,7 @@ struct newton_plan
     /// none for a mesh too small to be coarsened; referenced data may be destroyed afterwards. fixed: one flag per
     /// vertex, or none.
     newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells,
-                const std::vector<transfer_weights>& transfers, std::span<const char> fixed, lane_form form)
-        : newton_plan(mesh_layout, cells,
-                      incidence_of_cells(cells, static_cast<std::size_t>(mesh_layout->vertex_count)), transfers, fixed,
-                      form)
-    {
-    }
+                const std::vector<transfer_weights>& transfers, std::span<const char> fixed, lane_form form);
 
     /// Makes the plan of a level.
     newton_plan(const mesh_levels<Element>& levels, std::size_t l, lane_form form)
@@ -50,13 +45,34 @@ private:
     static constexpr std::size_t dense_enough = Element::dimension == 3 ? 600 : 180;
 
     newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells, const csr& around,
-                const std::vector<transfer_weights>& transfers, std::span<const char> fixed, lane_form form)
-        : layout(std::move(mesh_layout)),
-          cycle(pattern_of_cells(cells, around, form.slice), Element::dimension, transfers, form,
-                {.lambda_max = Element::corners, .dense_enough = dense_enough}),
-          assembly(cycle.patterns.front(), Element::dimension, cells, around, layout->cell_stride, fixed)
-    {
-    }
+                const std::vector<transfer_weights>& transfers, std::span<const char> fixed, lane_form form);
 };
 
+template <class Element>
+newton_plan<Element>::newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells,
+                                  const std::vector<transfer_weights>& transfers, std::span<const char> fixed,
+                                  lane_form form)
+    : newton_plan(mesh_layout, cells, incidence_of_cells(cells, static_cast<std::size_t>(mesh_layout->vertex_count)),
+                  transfers, fixed, form)
+{
+}
+
+template <class Element>
+newton_plan<Element>::newton_plan(std::shared_ptr<const layout_type> mesh_layout, const cells_type& cells,
+                                  const csr& around, const std::vector<transfer_weights>& transfers,
+                                  std::span<const char> fixed, lane_form form)
+    : layout(std::move(mesh_layout)),
+      cycle(pattern_of_cells(cells, around, form.slice), Element::dimension, transfers, form,
+            {.lambda_max = Element::corners, .dense_enough = dense_enough}),
+      assembly(cycle.patterns.front(), Element::dimension, cells, around, layout->cell_stride, fixed)
+{
+}
+
+// Compiled once, with the bodies.
+extern template struct newton_plan<triangle>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/newton_plan.ipp>
+#endif

@@ -49,16 +49,7 @@ public:
     }
 
     /// Replaces the map by an injective one.
-    void load(const map& x)
-    {
-        auto& d = *device_;
-        const map scaled = of_.scaled(x);
-        d.centre = bounding_box<D>(scaled).centre;
-        auto local = d.numbers.apply(scaled);
-        for (vec<D>& p : local) p -= d.centre;
-        d.objective.upload(local, d.x);
-        tell();
-    }
+    void load(const map& x);
 
     /// Replaces the map by one in normalised units whose fixed coordinates are at their targets.
     void load_placed(map x)
@@ -69,29 +60,11 @@ public:
     }
 
     /// Replaces the constraints.
-    void constrain(const constraints<Element>& wanted)
-    {
-        auto springs = point_constraints<D>{{}, directed(wanted.springs())}.scaled(of_.unit).springs;
-        const bool other = fixed.take(wanted) || !springs.empty() || !springs_.empty();
-        springs_ = std::move(springs);
-        if (!loaded()) return;
-        if (other)
-            tell();
-        else
-            aim();
-    }
+    void constrain(const constraints<Element>& wanted);
 
     /// Sets where follow() leads, for now: target(v) for the fixed coordinates of vertex v.
     template <class Target>
-    void aim(const Target& target)
-    {
-        device_->objective.aim(
-            [&, this](std::size_t v)
-            {
-                const vec<D> to = target(static_cast<std::size_t>(device_->numbers.new_to_old[v])) * of_.unit;
-                return to - device_->centre;
-            });
-    }
+    void aim(const Target& target);
 
     /// The same, at the targets themselves.
     void aim()
@@ -102,14 +75,7 @@ public:
     /// Brings fixed coordinates to the targets of aim(), by incremental loading. gap: the largest distance, in
     /// normalised units.
     solve::impl::prescribed_report follow(double gap,
-                                          const std::function<bool(const solve::impl::prescribed_report&)>& proceed)
-    {
-        // Shapes in space are stretched on purpose, and a jam shows by crawling.
-        auto& d = *device_;
-        if (!d.loading)
-            d.loading.emplace(d.objective, solve::impl::prescribed_params{.most_cost = D == 2 ? 10.0 : 1e4});
-        return d.loading->run(d.x, gap, proceed);
-    }
+                                          const std::function<bool(const solve::impl::prescribed_report&)>& proceed);
 
     /// Minimises with fixed coordinates where they are.
     solve::report minimise(const solve::params& how, const observer& ask)
@@ -140,45 +106,14 @@ public:
     }
 
     /// Certifies a map, with det of the elements in the user's lengths, too.
-    certificate certified(const map& x) const
-    {
-        if constexpr (!Element::oriented)
-            return certify_surface(of_.surface->cells(), of_.surface->points(), x);
-        else
-        {
-            auto flips = certify<D>(of_.rest.cells(), std::span<const vec<D>>(x), of_.ideal.measure, 16, of_.owners);
-            for (double* det : {&flips.min_det, &flips.max_det}) *det *= std::pow(of_.unit, D);
-            return flips;
-        }
-    }
+    certificate certified(const map& x) const;
 
     /// Untangling of a map with fixed coordinates at their targets, regardless of flips. guess: the map is injective
     /// without these.
-    untangle_problem<Element> problem(const map& x, bool guess) const
-    {
-        map there = x;
-        fixed.impose(there);
-        auto marks = fixed.marks();
-        std::vector<idx> sliding;
-        for (const auto& s : fixed.slides())
-        {
-            marks[static_cast<std::size_t>(s.vertex)] = marks.every; // while it untangles
-            sliding.push_back(s.vertex);
-        }
-        return {of_.rest,          of_.scaled(std::move(there)),
-                std::move(marks),  guess ? of_.scaled(x) : map(),
-                of_.targets,       of_.owners,
-                std::move(sliding)};
-    }
+    untangle_problem<Element> problem(const map& x, bool guess) const;
 
     /// Progress for the observer.
-    progress seen() const
-    {
-        if constexpr (D == 2)
-            return {.coordinates = [this] { return coordinates(); }};
-        else
-            return {.positions = [this] { return coordinates(); }};
-    }
+    progress seen() const;
 
 private:
     struct state
@@ -210,26 +145,10 @@ private:
     };
 
     /// Tells the device the constraints, and where fixed coordinates are to go.
-    void tell()
-    {
-        auto c = point_constraints<D>{fixed.marks(), springs_, fixed.slides()}.renumbered(device_->numbers);
-        for (auto& s : c.springs) s.target -= device_->centre;
-        device_->objective.constrain(c);
-        aim();
-    }
+    void tell();
 
     /// Rounds a position as coordinates() would return it.
-    vec<D> rounded(const vec<D>& p) const
-    {
-        const double scale = device_->objective.layout().scale;
-        vec<D> x = p * of_.unit;
-        for (int k = 0; k < D; ++k)
-        {
-            const double local = x[k] - device_->centre[k];
-            x[k] = (device_->single ? in_single(local * scale) / scale : local) + device_->centre[k];
-        }
-        return x / of_.unit;
-    }
+    vec<D> rounded(const vec<D>& p) const;
 
     queue queue_;
     const mapped_mesh<Element>& of_;
@@ -237,4 +156,120 @@ private:
     std::optional<state> device_;
 };
 
+template <class Element>
+void running_map<Element>::load(const map& x)
+{
+    auto& d = *device_;
+    const map scaled = of_.scaled(x);
+    d.centre = bounding_box<D>(scaled).centre;
+    auto local = d.numbers.apply(scaled);
+    for (vec<D>& p : local) p -= d.centre;
+    d.objective.upload(local, d.x);
+    tell();
+}
+
+template <class Element>
+void running_map<Element>::constrain(const constraints<Element>& wanted)
+{
+    auto springs = point_constraints<D>{{}, directed(wanted.springs())}.scaled(of_.unit).springs;
+    const bool other = fixed.take(wanted) || !springs.empty() || !springs_.empty();
+    springs_ = std::move(springs);
+    if (!loaded()) return;
+    if (other)
+        tell();
+    else
+        aim();
+}
+
+template <class Element>
+template <class Target>
+void running_map<Element>::aim(const Target& target)
+{
+    device_->objective.aim(
+        [&, this](std::size_t v)
+        {
+            const vec<D> to = target(static_cast<std::size_t>(device_->numbers.new_to_old[v])) * of_.unit;
+            return to - device_->centre;
+        });
+}
+
+template <class Element>
+solve::impl::prescribed_report
+running_map<Element>::follow(double gap, const std::function<bool(const solve::impl::prescribed_report&)>& proceed)
+{
+    // Shapes in space are stretched on purpose, and a jam shows by crawling.
+    auto& d = *device_;
+    if (!d.loading) d.loading.emplace(d.objective, solve::impl::prescribed_params{.most_cost = D == 2 ? 10.0 : 1e4});
+    return d.loading->run(d.x, gap, proceed);
+}
+
+template <class Element>
+certificate running_map<Element>::certified(const map& x) const
+{
+    if constexpr (!Element::oriented)
+        return certify_surface(of_.surface->cells(), of_.surface->points(), x);
+    else
+    {
+        auto flips = certify<D>(of_.rest.cells(), std::span<const vec<D>>(x), of_.ideal.measure, 16, of_.owners);
+        for (double* det : {&flips.min_det, &flips.max_det}) *det *= std::pow(of_.unit, D);
+        return flips;
+    }
+}
+
+template <class Element>
+untangle_problem<Element> running_map<Element>::problem(const map& x, bool guess) const
+{
+    map there = x;
+    fixed.impose(there);
+    auto marks = fixed.marks();
+    std::vector<idx> sliding;
+    for (const auto& s : fixed.slides())
+    {
+        marks[static_cast<std::size_t>(s.vertex)] = marks.every; // while it untangles
+        sliding.push_back(s.vertex);
+    }
+    return {of_.rest,          of_.scaled(std::move(there)),
+            std::move(marks),  guess ? of_.scaled(x) : map(),
+            of_.targets,       of_.owners,
+            std::move(sliding)};
+}
+
+template <class Element>
+progress running_map<Element>::seen() const
+{
+    if constexpr (D == 2)
+        return {.coordinates = [this] { return coordinates(); }};
+    else
+        return {.positions = [this] { return coordinates(); }};
+}
+
+template <class Element>
+void running_map<Element>::tell()
+{
+    auto c = point_constraints<D>{fixed.marks(), springs_, fixed.slides()}.renumbered(device_->numbers);
+    for (auto& s : c.springs) s.target -= device_->centre;
+    device_->objective.constrain(c);
+    aim();
+}
+
+template <class Element>
+auto running_map<Element>::rounded(const vec<D>& p) const -> vec<D>
+{
+    const double scale = device_->objective.layout().scale;
+    vec<D> x = p * of_.unit;
+    for (int k = 0; k < D; ++k)
+    {
+        const double local = x[k] - device_->centre[k];
+        x[k] = (device_->single ? in_single(local * scale) / scale : local) + device_->centre[k];
+    }
+    return x / of_.unit;
+}
+
+// Compiled once, with the bodies.
+extern template class running_map<triangle>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/running_map.ipp>
+#endif

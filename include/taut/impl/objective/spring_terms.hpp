@@ -33,58 +33,10 @@ public:
 
     /// springs: in the user's numbers and units.
     spring_terms(queue q, const real_types& types, const layout<Element>& mesh_layout,
-                 std::span<const directed_spring<D>> springs)
-        : queue_(std::move(q)),
-          types_(types),
-          cell_stride_(static_cast<idx>(mesh_layout.cell_stride)),
-          vertex_stride_(static_cast<idx>(mesh_layout.vertex_stride))
-    {
-        set_springs(mesh_layout, springs);
-    }
+                 std::span<const directed_spring<D>> springs);
 
     /// Replaces the springs, in the user's numbering and units. mesh_layout: the same as before.
-    void set_springs(const layout<Element>& mesh_layout, std::span<const directed_spring<D>> springs)
-    {
-        struct entry
-        {
-            std::array<const directed_spring<D>*, corners> at{};
-        };
-        std::map<idx, entry> by_cell;
-        for (const auto& s : springs)
-        {
-            const auto around = mesh_layout.vertex_corners.row(
-                mesh_layout.order.vertices.old_to_new[static_cast<std::size_t>(s.vertex)]);
-            if (around.empty()) continue; // no element sees the vertex, and none can be distorted for it
-            const auto corner = static_cast<std::size_t>(around.front());
-            by_cell[static_cast<idx>(corner / corners)].at[corner % corners] = &s;
-        }
-        count_ = by_cell.size();
-        if (count_ == 0) return;
-        const double unit = mesh_layout.scale;
-        std::vector<idx> cell, vertex(corners * count_);
-        std::vector<double> stiffness(corners * D * count_, 0), target(corners * D * count_, 0);
-        for (const auto& [c, e] : by_cell)
-        {
-            const std::size_t i = cell.size();
-            cell.push_back(c);
-            for (std::size_t j = 0; j < corners; ++j)
-            {
-                vertex[i + j * count_] = mesh_layout.corners[j * mesh_layout.cell_stride + static_cast<std::size_t>(c)];
-                if (!e.at[j]) continue;
-                for (std::size_t k = 0; k < D; ++k)
-                {
-                    const std::size_t place = i + (j * D + k) * count_;
-                    stiffness[place] = e.at[j]->stiffness[static_cast<int>(k)] / (unit * unit);
-                    target[place] = e.at[j]->target[static_cast<int>(k)] * unit;
-                }
-            }
-        }
-        if (!kernels_) kernels_ = std::make_shared<const kernels>(queue_, types_);
-        cell_ = buffer<idx>(queue_, cell);
-        vertex_ = buffer<idx>(queue_, vertex);
-        stiffness_ = real_buffer(queue_, types_.vector, stiffness);
-        target_ = real_buffer(queue_, types_.position, target);
-    }
+    void set_springs(const layout<Element>& mesh_layout, std::span<const directed_spring<D>> springs);
 
     /// Adds to the energies of elements at x.
     void add_energy(const device_vector& x, real_buffer& energies)
@@ -214,35 +166,11 @@ private:
         }
     };
 
-    std::vector<named_argument> with(std::initializer_list<named_argument> more) const
-    {
-        std::vector<named_argument> all = {{"cell", cell_},
-                                           {"vertex", vertex_},
-                                           {"stiffness", stiffness_},
-                                           {"target", target_},
-                                           {"count", static_cast<idx>(count_)},
-                                           {"cell_stride", cell_stride_},
-                                           {"vertex_stride", vertex_stride_}};
-        all.insert(all.end(), more);
-        return all;
-    }
+    std::vector<named_argument> with(std::initializer_list<named_argument> more) const;
 
     template <std::size_t N>
     void launch_energies(const device_vector& x, const real_buffer& d, const real_buffer& unit,
-                         const std::array<double, N>& steps, real_buffer& energies)
-    {
-        static_assert(N <= trials);
-        if (count_ == 0) return;
-        const auto step = [&](std::size_t k) { return steps[std::min(k, N - 1)]; };
-        kernels_->energies(N * count_, with({{"x", x.data()},
-                                             {"d", d},
-                                             {"unit", unit},
-                                             {"energy", energies},
-                                             {"step0", step(0)},
-                                             {"step1", step(1)},
-                                             {"step2", step(2)},
-                                             {"step3", step(3)}}));
-    }
+                         const std::array<double, N>& steps, real_buffer& energies);
 
     queue queue_;
     real_types types_;
@@ -253,4 +181,98 @@ private:
     real_buffer stiffness_, target_;
 };
 
+template <class Element>
+spring_terms<Element>::spring_terms(queue q, const real_types& types, const layout<Element>& mesh_layout,
+                                    std::span<const directed_spring<D>> springs)
+    : queue_(std::move(q)),
+      types_(types),
+      cell_stride_(static_cast<idx>(mesh_layout.cell_stride)),
+      vertex_stride_(static_cast<idx>(mesh_layout.vertex_stride))
+{
+    set_springs(mesh_layout, springs);
+}
+
+template <class Element>
+void spring_terms<Element>::set_springs(const layout<Element>& mesh_layout, std::span<const directed_spring<D>> springs)
+{
+    struct entry
+    {
+        std::array<const directed_spring<D>*, corners> at{};
+    };
+    std::map<idx, entry> by_cell;
+    for (const auto& s : springs)
+    {
+        const auto around =
+            mesh_layout.vertex_corners.row(mesh_layout.order.vertices.old_to_new[static_cast<std::size_t>(s.vertex)]);
+        if (around.empty()) continue; // no element sees the vertex, and none can be distorted for it
+        const auto corner = static_cast<std::size_t>(around.front());
+        by_cell[static_cast<idx>(corner / corners)].at[corner % corners] = &s;
+    }
+    count_ = by_cell.size();
+    if (count_ == 0) return;
+    const double unit = mesh_layout.scale;
+    std::vector<idx> cell, vertex(corners * count_);
+    std::vector<double> stiffness(corners * D * count_, 0), target(corners * D * count_, 0);
+    for (const auto& [c, e] : by_cell)
+    {
+        const std::size_t i = cell.size();
+        cell.push_back(c);
+        for (std::size_t j = 0; j < corners; ++j)
+        {
+            vertex[i + j * count_] = mesh_layout.corners[j * mesh_layout.cell_stride + static_cast<std::size_t>(c)];
+            if (!e.at[j]) continue;
+            for (std::size_t k = 0; k < D; ++k)
+            {
+                const std::size_t place = i + (j * D + k) * count_;
+                stiffness[place] = e.at[j]->stiffness[static_cast<int>(k)] / (unit * unit);
+                target[place] = e.at[j]->target[static_cast<int>(k)] * unit;
+            }
+        }
+    }
+    if (!kernels_) kernels_ = std::make_shared<const kernels>(queue_, types_);
+    cell_ = buffer<idx>(queue_, cell);
+    vertex_ = buffer<idx>(queue_, vertex);
+    stiffness_ = real_buffer(queue_, types_.vector, stiffness);
+    target_ = real_buffer(queue_, types_.position, target);
+}
+
+template <class Element>
+std::vector<named_argument> spring_terms<Element>::with(std::initializer_list<named_argument> more) const
+{
+    std::vector<named_argument> all = {{"cell", cell_},
+                                       {"vertex", vertex_},
+                                       {"stiffness", stiffness_},
+                                       {"target", target_},
+                                       {"count", static_cast<idx>(count_)},
+                                       {"cell_stride", cell_stride_},
+                                       {"vertex_stride", vertex_stride_}};
+    all.insert(all.end(), more);
+    return all;
+}
+
+template <class Element>
+template <std::size_t N>
+void spring_terms<Element>::launch_energies(const device_vector& x, const real_buffer& d, const real_buffer& unit,
+                                            const std::array<double, N>& steps, real_buffer& energies)
+{
+    static_assert(N <= trials);
+    if (count_ == 0) return;
+    const auto step = [&](std::size_t k) { return steps[std::min(k, N - 1)]; };
+    kernels_->energies(N * count_, with({{"x", x.data()},
+                                         {"d", d},
+                                         {"unit", unit},
+                                         {"energy", energies},
+                                         {"step0", step(0)},
+                                         {"step1", step(1)},
+                                         {"step2", step(2)},
+                                         {"step3", step(3)}}));
+}
+
+// Compiled once, with the bodies.
+extern template class spring_terms<triangle>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/spring_terms.ipp>
+#endif

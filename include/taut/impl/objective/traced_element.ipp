@@ -24,4 +24,6 @@ element_inputs::element_inputs(recording& r, const real_types& types, const any_
         parameters.push_back(r.scalar<double>("parameter" + std::to_string(k), types.vector));
 }
 
+template class traced_element<2>;
+
 } // namespace taut::impl

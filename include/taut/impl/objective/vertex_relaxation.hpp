@@ -67,65 +67,16 @@ public:
     /// the user's numbers, or none; these are not moved, as they have constraints besides the energy.
     vertex_relaxation(queue q, std::shared_ptr<const layout<Element>> mesh_layout,
                       std::shared_ptr<const kernels> shared_kernels, std::shared_ptr<const arrays> shared_arrays,
-                      const std::vector<bool>& still = {})
-        : queue_(std::move(q)),
-          layout_(std::move(mesh_layout)),
-          kernels_(std::move(shared_kernels)),
-          arrays_(std::move(shared_arrays)),
-          scheduler_(*layout_, still),
-          reductions_(queue_),
-          densities_(queue_, type(), layout_->cell_stride)
-    {
-    }
+                      const std::vector<bool>& still = {});
 
     /// Replaces the flags of vertices that are not moved, as in the constructor.
     void keep_still(const std::vector<bool>& still) { scheduler_ = relaxation_scheduler<Element>(*layout_, still); }
 
     /// Relaxes x, coordinates as in layout.hpp. A map of infinite energy is not changed.
-    result operator()(device_vector& x, const params& how = {})
-    {
-        kernels_->densities({layout_->cell_stride, step}, arrays_->with(x.data(), {{"minus_density", densities_}}));
-        const auto least = reductions_.minimum(densities_, cell_count());
-        const auto mean = reductions_.dot(densities_, arrays_->weight, cell_count());
-        host_ = host_reals(type(), cell_count());
-        densities_.begin_download(host_);
-        try
-        {
-            reductions_.fetch();
-        }
-        catch (...)
-        {
-            clFinish(queue_.native()); // host_ may go, and the driver may still be writing to it
-            throw;
-        }
-
-        result r{.worst = -reductions_.value(least)};
-        const double limit = std::max(how.threshold * kernels_->rest, -how.above_mean * reductions_.value(mean));
-        if (!(r.worst > limit) || !std::isfinite(limit) || how.sweeps < 1) return r;
-
-        const auto cells = above(limit);
-        const auto schedule = scheduler_(*layout_, cells);
-        r.elements = cells.size();
-        r.vertices = static_cast<std::size_t>(schedule.rows);
-        r.sweeps = schedule.rows > 0 ? how.sweeps : 0;
-        run(schedule, r.sweeps, x);
-        return r;
-    }
+    result operator()(device_vector& x, const params& how = {});
 
     /// Launches every kernel once, so that the driver compiles them. x is not changed.
-    void warm_up(device_vector& x)
-    {
-        params none;
-        none.sweeps = 0;
-        (*this)(x, none);
-        if (layout_->free_count == 0) return;
-        // A colour of no rows launches nothing, so a vertex has to move; it moves on a copy.
-        device_vector copy(queue_, x.data().type(), x.size());
-        copy.data().copy_from(x.data());
-        const idx cell[] = {layout_->vertex_corners.items.front() / idx(Element::corners)};
-        run(scheduler_(*layout_, cell), 1, copy);
-        queue_.finish();
-    }
+    void warm_up(device_vector& x);
 
 private:
     static constexpr std::size_t step = taut::impl::layout<Element>::step;
@@ -134,51 +85,9 @@ private:
     std::size_t cell_count() const { return static_cast<std::size_t>(layout_->cell_count); }
 
     /// The cells with a larger density.
-    std::vector<idx> above(double limit) const
-    {
-        std::vector<idx> cells;
-        for (std::size_t c = 0; c < host_.size(); ++c)
-            if (-host_[c] > limit) cells.push_back(static_cast<idx>(c));
-        return cells;
-    }
+    std::vector<idx> above(double limit) const;
 
-    void run(const relaxation_schedule& s, int sweeps, device_vector& x)
-    {
-        const auto wide = static_cast<std::size_t>(s.widest);
-        require(steps_, kernels::step_count * wide);
-        require(numbers_, std::max(kernels::term_count, kernels::trials) * wide);
-        const buffer<idx> lists(queue_, s.lists);
-        for (int sweep = 0; sweep < sweeps; ++sweep)
-            for (const auto& c : s.colours)
-            {
-                const auto rows = static_cast<std::size_t>(c.rows), entries = static_cast<std::size_t>(c.entries);
-                const auto part = [&](std::initializer_list<named_argument> more)
-                {
-                    std::vector<named_argument> all = more;
-                    all.insert(all.end(), {{"lists", lists},
-                                           {"first_entry", c.first_entry},
-                                           {"first_row", c.first_row},
-                                           {"list_stride", s.stride},
-                                           {"stride", s.widest}});
-                    return all;
-                };
-                const auto of_elements = [&](std::initializer_list<named_argument> more)
-                {
-                    auto all = part(more);
-                    const auto inputs = arrays_->with(x.data(), {});
-                    all.insert(all.end(), inputs.begin(), inputs.end());
-                    return all;
-                };
-                kernels_->terms(entries, of_elements({{"terms", numbers_}}));
-                kernels_->steps(rows, part({{"terms", numbers_}, {"steps", steps_}}));
-                kernels_->tries(kernels::trials * entries,
-                                of_elements({{"steps", steps_}, {"values", numbers_}, {"entries", c.entries}}));
-                kernels_->moves(rows, part({{"steps", steps_},
-                                            {"values", numbers_},
-                                            {"x", x.data()},
-                                            {"vertex_stride", arrays_->vertex_stride}}));
-            }
-    }
+    void run(const relaxation_schedule& s, int sweeps, device_vector& x);
 
     /// Reserves room for n numbers, and for half as many more if it has to grow.
     void require(real_buffer& b, std::size_t n)
@@ -197,4 +106,121 @@ private:
     host_reals host_;             ///< a copy of the densities
 };
 
+template <class Element>
+vertex_relaxation<Element>::vertex_relaxation(queue q, std::shared_ptr<const layout<Element>> mesh_layout,
+                                              std::shared_ptr<const kernels> shared_kernels,
+                                              std::shared_ptr<const arrays> shared_arrays,
+                                              const std::vector<bool>& still)
+    : queue_(std::move(q)),
+      layout_(std::move(mesh_layout)),
+      kernels_(std::move(shared_kernels)),
+      arrays_(std::move(shared_arrays)),
+      scheduler_(*layout_, still),
+      reductions_(queue_),
+      densities_(queue_, type(), layout_->cell_stride)
+{
+}
+
+template <class Element>
+auto vertex_relaxation<Element>::operator()(device_vector& x, const params& how) -> result
+{
+    kernels_->densities({layout_->cell_stride, step}, arrays_->with(x.data(), {{"minus_density", densities_}}));
+    const auto least = reductions_.minimum(densities_, cell_count());
+    const auto mean = reductions_.dot(densities_, arrays_->weight, cell_count());
+    host_ = host_reals(type(), cell_count());
+    densities_.begin_download(host_);
+    try
+    {
+        reductions_.fetch();
+    }
+    catch (...)
+    {
+        clFinish(queue_.native()); // host_ may go, and the driver may still be writing to it
+        throw;
+    }
+
+    result r{.worst = -reductions_.value(least)};
+    const double limit = std::max(how.threshold * kernels_->rest, -how.above_mean * reductions_.value(mean));
+    if (!(r.worst > limit) || !std::isfinite(limit) || how.sweeps < 1) return r;
+
+    const auto cells = above(limit);
+    const auto schedule = scheduler_(*layout_, cells);
+    r.elements = cells.size();
+    r.vertices = static_cast<std::size_t>(schedule.rows);
+    r.sweeps = schedule.rows > 0 ? how.sweeps : 0;
+    run(schedule, r.sweeps, x);
+    return r;
+}
+
+template <class Element>
+void vertex_relaxation<Element>::warm_up(device_vector& x)
+{
+    params none;
+    none.sweeps = 0;
+    (*this)(x, none);
+    if (layout_->free_count == 0) return;
+    // A colour of no rows launches nothing, so a vertex has to move; it moves on a copy.
+    device_vector copy(queue_, x.data().type(), x.size());
+    copy.data().copy_from(x.data());
+    const idx cell[] = {layout_->vertex_corners.items.front() / idx(Element::corners)};
+    run(scheduler_(*layout_, cell), 1, copy);
+    queue_.finish();
+}
+
+template <class Element>
+std::vector<idx> vertex_relaxation<Element>::above(double limit) const
+{
+    std::vector<idx> cells;
+    for (std::size_t c = 0; c < host_.size(); ++c)
+        if (-host_[c] > limit) cells.push_back(static_cast<idx>(c));
+    return cells;
+}
+
+template <class Element>
+void vertex_relaxation<Element>::run(const relaxation_schedule& s, int sweeps, device_vector& x)
+{
+    const auto wide = static_cast<std::size_t>(s.widest);
+    require(steps_, kernels::step_count * wide);
+    require(numbers_, std::max(kernels::term_count, kernels::trials) * wide);
+    const buffer<idx> lists(queue_, s.lists);
+    for (int sweep = 0; sweep < sweeps; ++sweep)
+        for (const auto& c : s.colours)
+        {
+            const auto rows = static_cast<std::size_t>(c.rows), entries = static_cast<std::size_t>(c.entries);
+            const auto part = [&](std::initializer_list<named_argument> more)
+            {
+                std::vector<named_argument> all = more;
+                all.insert(all.end(), {{"lists", lists},
+                                       {"first_entry", c.first_entry},
+                                       {"first_row", c.first_row},
+                                       {"list_stride", s.stride},
+                                       {"stride", s.widest}});
+                return all;
+            };
+            const auto of_elements = [&](std::initializer_list<named_argument> more)
+            {
+                auto all = part(more);
+                const auto inputs = arrays_->with(x.data(), {});
+                all.insert(all.end(), inputs.begin(), inputs.end());
+                return all;
+            };
+            kernels_->terms(entries, of_elements({{"terms", numbers_}}));
+            kernels_->steps(rows, part({{"terms", numbers_}, {"steps", steps_}}));
+            kernels_->tries(kernels::trials * entries,
+                            of_elements({{"steps", steps_}, {"values", numbers_}, {"entries", c.entries}}));
+            kernels_->moves(rows, part({{"steps", steps_},
+                                        {"values", numbers_},
+                                        {"x", x.data()},
+                                        {"vertex_stride", arrays_->vertex_stride}}));
+        }
+}
+
+// Compiled once, with the bodies.
+extern template struct relaxation_kernels<triangle>;
+extern template class vertex_relaxation<triangle>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/objective/vertex_relaxation.ipp>
+#endif

@@ -33,64 +33,7 @@ public:
     /// stay 0, diagonals included. Throws parameter_error.
     template <class Cells>
     assembly_lists(const block_pattern& pattern, int block_size, const Cells& cells, const csr& around,
-                   std::size_t stride, std::span<const char> fixed = {})
-        : cell_stride(stride), places(pattern.columns.size())
-    {
-        constexpr std::size_t K = cell_corners<Cells>;
-        const auto D = static_cast<std::size_t>(block_size);
-        if (cells.size() > cell_stride) throw parameter_error("cell_stride", "is less than the number of cells");
-        if (around.offsets.size() != pattern.rows() + 1) throw parameter_error("around", "is of another mesh");
-        if (!fixed.empty() && fixed.size() != pattern.rows())
-            throw parameter_error("fixed", "needs one flag a row, or none");
-        std::array<std::array<std::size_t, K>, K> first{}; // entry 0 of the block of each pair
-        std::size_t entries = 0;
-        for (std::size_t k = 0; k < K; ++k)
-            for (std::size_t l = k; l < K; ++l)
-            {
-                first[k][l] = first[l][k] = entries * cell_stride;
-                entries += k == l ? D * (D + 1) / 2 : D * D;
-            }
-        if (entries * cell_stride >= static_cast<std::size_t>(none))
-            throw size_error("assembly_lists", "more than 2^31 entries of element blocks");
-        if (cells.size() > 0) reach = (entries - 1) * cell_stride + cells.size();
-
-        const auto is_fixed = [&](idx v) { return !fixed.empty() && fixed[static_cast<std::size_t>(v)]; };
-        std::vector<impl::list_chunk> own(impl::chunk_count(pattern.rows())), rest(own.size());
-        const auto C = static_cast<std::size_t>(pattern.slice);
-        const auto make = [&](std::size_t chunk, std::size_t begin, std::size_t end)
-        {
-            slice_lists lists(C);
-            impl::sliced_row row;
-            for (std::size_t start = begin; start < end; start += C)
-            {
-                lists.begin(pattern.width(start));
-                for (std::size_t v = start; v < std::min(start + C, end); ++v)
-                {
-                    if (is_fixed(static_cast<idx>(v))) continue;
-                    row.read(pattern, v);
-                    for (const idx corner : around.row(static_cast<idx>(v)))
-                    {
-                        const std::size_t cell = static_cast<std::size_t>(corner) / K,
-                                          k = static_cast<std::size_t>(corner) % K;
-                        lists.add(0, v % C, static_cast<idx>(first[k][k] + cell));
-                        for (std::size_t l = 0; l < K; ++l)
-                        {
-                            const idx w = cells[cell][l];
-                            if (l == k || is_fixed(w)) continue;
-                            const auto slot = static_cast<idx>(first[k][l] + cell);
-                            lists.add(row.find(w), v % C, k < l ? slot : ~slot);
-                        }
-                    }
-                }
-                lists.finish(own[chunk], rest[chunk]);
-            }
-        };
-        impl::for_each_chunk(pattern.rows(), make);
-        diagonal = impl::joined(own);
-        others = impl::joined(rest);
-        diagonal_offsets = impl::slice_offsets(own, pattern.stride() / C);
-        other_offsets = impl::slice_offsets(rest, places / C);
-    }
+                   std::size_t stride, std::span<const char> fixed = {});
 
     std::size_t cell_stride;
     std::size_t places;    ///< of the pattern
@@ -150,4 +93,75 @@ private:
     };
 };
 
+template <class Cells>
+assembly_lists::assembly_lists(const block_pattern& pattern, int block_size, const Cells& cells, const csr& around,
+                               std::size_t stride, std::span<const char> fixed)
+    : cell_stride(stride), places(pattern.columns.size())
+{
+    constexpr std::size_t K = cell_corners<Cells>;
+    const auto D = static_cast<std::size_t>(block_size);
+    if (cells.size() > cell_stride) throw parameter_error("cell_stride", "is less than the number of cells");
+    if (around.offsets.size() != pattern.rows() + 1) throw parameter_error("around", "is of another mesh");
+    if (!fixed.empty() && fixed.size() != pattern.rows())
+        throw parameter_error("fixed", "needs one flag a row, or none");
+    std::array<std::array<std::size_t, K>, K> first{}; // entry 0 of the block of each pair
+    std::size_t entries = 0;
+    for (std::size_t k = 0; k < K; ++k)
+        for (std::size_t l = k; l < K; ++l)
+        {
+            first[k][l] = first[l][k] = entries * cell_stride;
+            entries += k == l ? D * (D + 1) / 2 : D * D;
+        }
+    if (entries * cell_stride >= static_cast<std::size_t>(none))
+        throw size_error("assembly_lists", "more than 2^31 entries of element blocks");
+    if (cells.size() > 0) reach = (entries - 1) * cell_stride + cells.size();
+
+    const auto is_fixed = [&](idx v) { return !fixed.empty() && fixed[static_cast<std::size_t>(v)]; };
+    std::vector<impl::list_chunk> own(impl::chunk_count(pattern.rows())), rest(own.size());
+    const auto C = static_cast<std::size_t>(pattern.slice);
+    const auto make = [&](std::size_t chunk, std::size_t begin, std::size_t end)
+    {
+        slice_lists lists(C);
+        impl::sliced_row row;
+        for (std::size_t start = begin; start < end; start += C)
+        {
+            lists.begin(pattern.width(start));
+            for (std::size_t v = start; v < std::min(start + C, end); ++v)
+            {
+                if (is_fixed(static_cast<idx>(v))) continue;
+                row.read(pattern, v);
+                for (const idx corner : around.row(static_cast<idx>(v)))
+                {
+                    const std::size_t cell = static_cast<std::size_t>(corner) / K,
+                                      k = static_cast<std::size_t>(corner) % K;
+                    lists.add(0, v % C, static_cast<idx>(first[k][k] + cell));
+                    for (std::size_t l = 0; l < K; ++l)
+                    {
+                        const idx w = cells[cell][l];
+                        if (l == k || is_fixed(w)) continue;
+                        const auto slot = static_cast<idx>(first[k][l] + cell);
+                        lists.add(row.find(w), v % C, k < l ? slot : ~slot);
+                    }
+                }
+            }
+            lists.finish(own[chunk], rest[chunk]);
+        }
+    };
+    impl::for_each_chunk(pattern.rows(), make);
+    diagonal = impl::joined(own);
+    others = impl::joined(rest);
+    diagonal_offsets = impl::slice_offsets(own, pattern.stride() / C);
+    other_offsets = impl::slice_offsets(rest, places / C);
+}
+
+// Compiled once, with the bodies.
+extern template assembly_lists::assembly_lists(const block_pattern&, int, const std::vector<std::array<idx, 3>>&,
+                                               const csr&, std::size_t, std::span<const char>);
+extern template assembly_lists::assembly_lists(const block_pattern&, int, const std::vector<std::array<idx, 4>>&,
+                                               const csr&, std::size_t, std::span<const char>);
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/sparse/assembly_lists.ipp>
+#endif

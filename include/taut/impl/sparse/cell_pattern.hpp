@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -82,4 +83,14 @@ block_pattern pattern_of_cells(const Cells& cells, std::size_t rows, idx slice)
     return pattern_of_cells(cells, incidence_of_cells(cells, rows), slice);
 }
 
+// Compiled once, with the bodies.
+extern template csr incidence_of_cells(const std::vector<std::array<idx, 3>>&, std::size_t);
+extern template block_pattern pattern_of_cells(const std::vector<std::array<idx, 3>>&, const csr&, idx);
+extern template csr incidence_of_cells(const std::vector<std::array<idx, 4>>&, std::size_t);
+extern template block_pattern pattern_of_cells(const std::vector<std::array<idx, 4>>&, const csr&, idx);
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/sparse/cell_pattern.ipp>
+#endif

@@ -65,24 +65,7 @@ public:
     }
 
     /// last: the map. Returns whether all are at their targets.
-    bool run(const coordinates& last)
-    {
-        if (may_guess() && paths(last).parts() > 1 && guess(last)) return true;
-        bool arrived = follow(last);
-        if (!arrived && hard_)
-        {
-            if (guess(last)) return true;
-            if (call_.may_step()) arrived = follow(map_.coordinates());
-        }
-        // In the plane steps stick where pins are in each other's way, which no arithmetic changes.
-        if (D == 3 && !arrived && stuck_ && call_.may_step() && in_double(map_, call_.report))
-            arrived = follow(map_.coordinates());
-        did_.stop = arrived ? "" : stuck_ ? "stuck" : call_.clock.refused() ? "user" : "limit";
-        call_.book(&session_seconds::follow, std::move(did_));
-        if constexpr (Element::oriented)
-            if (!arrived && stuck_ && call_.may_step()) return untangled();
-        return arrived;
-    }
+    bool run(const coordinates& last);
 
 private:
     prescribed_paths<D> paths(const coordinates& from) const
@@ -94,112 +77,18 @@ private:
     bool may_guess() const { return D == 3 && Element::oriented && map_.fixed.slides().empty() && call_.lasts(20); }
 
     /// Tries an initial guess with fixed vertices at their targets. Returns whether it was taken.
-    bool guess(const coordinates& last)
-    {
-        guessed_ = true;
-        hard_ = false;
-        if constexpr (D == 3 && Element::oriented)
-        {
-            const auto how = map_.on().device().has_fp64() ? precision::mixed : precision::fp32;
-            auto found = guess_maker(map_.on(), call_.limited(untangling_), how).make(map_.problem(last, true));
-            call_.clock.stages.append(found.stages);
-            call_.book(&session_seconds::follow, {.stage = "draft",
-                                                  .vertices = found.vertices,
-                                                  .iterations = found.steps,
-                                                  .stop = found.x.empty() ? "stuck" : "injective"});
-            if (found.x.empty()) return false;
-            map_.load_placed(std::move(found.x));
-            return true;
-        }
-        else
-            return false;
-    }
+    bool guess(const coordinates& last);
 
     /// Follows the path from a map in parts; returns whether its end was reached.
-    bool follow(const coordinates& from)
-    {
-        const auto path = paths(from);
-        const int parts = path.parts();
-        bool goes_on = true;
-        for (int part = 1; goes_on && part <= parts; ++part)
-        {
-            if (part > 1 && !call_.may_step())
-            {
-                goes_on = stuck_ = false;
-                break;
-            }
-            const auto way = [&](std::size_t v) { return path.place(v, double(part) / parts); };
-            if (parts > 1) map_.aim(way);
-            goes_on = follow_part(map_.fixed.gap(part == 1 ? from : map_.coordinates(), way).distance);
-        }
-        if (parts > 1 && !goes_on) map_.aim(); // where the next call goes
-        return goes_on;
-    }
+    bool follow(const coordinates& from);
 
     /// The same for one part. stuck_: steps do not help.
-    bool follow_part(double distance)
-    {
-        const double gap = std::max(distance * map_.of().unit, std::numeric_limits<double>::min());
-        double mark = call_.clock.total();
-        bool feasible = true;
-        const auto proceed = [&](const solve::impl::prescribed_report& at)
-        {
-            call_.step_seconds = call_.clock.total() - std::exchange(mark, call_.clock.total());
-            // Where it is hard to go on there may be no way.
-            if (!proof_sought_ && at.left > 0.5 * gap)
-            {
-                proof_sought_ = true;
-                feasible = !proved_infeasible(map_, map_.coordinates(), call_.report);
-            }
-            if (!guessed_ && at.left > 0.75 * gap) hard_ = may_guess();
-            progress p = map_.seen();
-            p.iteration = at.iterations;
-            p.value = at.value;
-            return feasible && !hard_ && at.iterations < call_.steps_left &&
-                   call_.clock.left().count() > call_.step_seconds && call_.clock.proceed(p);
-        };
-        const auto found = map_.follow(gap, proceed);
-        call_.count(found.iterations);
-        call_.report.energy = found.value;
-        did_.stage = "follow";
-        if (did_.iterations == 0) did_.energy_before = found.value_start;
-        did_.iterations += found.iterations;
-        did_.energy_after = found.value;
-        stuck_ = found.crawling && feasible;
-        return found.arrived;
-    }
+    bool follow_part(double distance);
 
     /// Untangles where steps bring fixed coordinates no nearer, if the budget would last for some twenty steps more, or
     /// a hundred for the whole mesh, for the time of a thousand steps at most. Its iterations count as steps. Returns
     /// whether it succeeded.
-    bool untangled()
-    {
-        bool done = false;
-        int before = 0, now = 0; // iterations of untanglings that have ended, and of the one at work
-        if (call_.lasts(20))
-        {
-            const repair_limits limits{
-                .whole = call_.lasts(100),
-                .time = std::min(call_.clock.left(), std::chrono::duration<double>(1000 * call_.step_seconds)),
-                .ask = [&](const progress& p)
-                {
-                    if (p.iteration < now) before += now;
-                    now = p.iteration;
-                    return before + now < call_.steps_left && call_.clock.ask({.iterate = false});
-                }};
-            auto found = repaired(map_.on(), map_.problem(map_.coordinates(), true), untangling_, limits);
-            call_.count(before + now);
-            done = bool(found);
-            if (done)
-            {
-                map_.load_placed(*std::move(found));
-                call_.report.notes.push_back("steps stuck; the map was untangled with the pins at their places");
-            }
-        }
-        call_.book(&session_seconds::repair,
-                   {.stage = "repair", .iterations = before + now, .stop = done ? "injective" : "stuck"});
-        return done;
-    }
+    bool untangled();
 
     running_map<Element>& map_;
     session_call& call_;
@@ -211,4 +100,137 @@ private:
     bool stuck_ = false;   ///< steps bring fixed coordinates no nearer to their targets
 };
 
+template <class Element>
+bool incremental_loading<Element>::run(const coordinates& last)
+{
+    if (may_guess() && paths(last).parts() > 1 && guess(last)) return true;
+    bool arrived = follow(last);
+    if (!arrived && hard_)
+    {
+        if (guess(last)) return true;
+        if (call_.may_step()) arrived = follow(map_.coordinates());
+    }
+    // In the plane steps stick where pins are in each other's way, which no arithmetic changes.
+    if (D == 3 && !arrived && stuck_ && call_.may_step() && in_double(map_, call_.report))
+        arrived = follow(map_.coordinates());
+    did_.stop = arrived ? "" : stuck_ ? "stuck" : call_.clock.refused() ? "user" : "limit";
+    call_.book(&session_seconds::follow, std::move(did_));
+    if constexpr (Element::oriented)
+        if (!arrived && stuck_ && call_.may_step()) return untangled();
+    return arrived;
+}
+
+template <class Element>
+bool incremental_loading<Element>::guess(const coordinates& last)
+{
+    guessed_ = true;
+    hard_ = false;
+    if constexpr (D == 3 && Element::oriented)
+    {
+        const auto how = map_.on().device().has_fp64() ? precision::mixed : precision::fp32;
+        auto found = guess_maker(map_.on(), call_.limited(untangling_), how).make(map_.problem(last, true));
+        call_.clock.stages.append(found.stages);
+        call_.book(&session_seconds::follow, {.stage = "draft",
+                                              .vertices = found.vertices,
+                                              .iterations = found.steps,
+                                              .stop = found.x.empty() ? "stuck" : "injective"});
+        if (found.x.empty()) return false;
+        map_.load_placed(std::move(found.x));
+        return true;
+    }
+    else
+        return false;
+}
+
+template <class Element>
+bool incremental_loading<Element>::follow(const coordinates& from)
+{
+    const auto path = paths(from);
+    const int parts = path.parts();
+    bool goes_on = true;
+    for (int part = 1; goes_on && part <= parts; ++part)
+    {
+        if (part > 1 && !call_.may_step())
+        {
+            goes_on = stuck_ = false;
+            break;
+        }
+        const auto way = [&](std::size_t v) { return path.place(v, double(part) / parts); };
+        if (parts > 1) map_.aim(way);
+        goes_on = follow_part(map_.fixed.gap(part == 1 ? from : map_.coordinates(), way).distance);
+    }
+    if (parts > 1 && !goes_on) map_.aim(); // where the next call goes
+    return goes_on;
+}
+
+template <class Element>
+bool incremental_loading<Element>::follow_part(double distance)
+{
+    const double gap = std::max(distance * map_.of().unit, std::numeric_limits<double>::min());
+    double mark = call_.clock.total();
+    bool feasible = true;
+    const auto proceed = [&](const solve::impl::prescribed_report& at)
+    {
+        call_.step_seconds = call_.clock.total() - std::exchange(mark, call_.clock.total());
+        // Where it is hard to go on there may be no way.
+        if (!proof_sought_ && at.left > 0.5 * gap)
+        {
+            proof_sought_ = true;
+            feasible = !proved_infeasible(map_, map_.coordinates(), call_.report);
+        }
+        if (!guessed_ && at.left > 0.75 * gap) hard_ = may_guess();
+        progress p = map_.seen();
+        p.iteration = at.iterations;
+        p.value = at.value;
+        return feasible && !hard_ && at.iterations < call_.steps_left &&
+               call_.clock.left().count() > call_.step_seconds && call_.clock.proceed(p);
+    };
+    const auto found = map_.follow(gap, proceed);
+    call_.count(found.iterations);
+    call_.report.energy = found.value;
+    did_.stage = "follow";
+    if (did_.iterations == 0) did_.energy_before = found.value_start;
+    did_.iterations += found.iterations;
+    did_.energy_after = found.value;
+    stuck_ = found.crawling && feasible;
+    return found.arrived;
+}
+
+template <class Element>
+bool incremental_loading<Element>::untangled()
+{
+    bool done = false;
+    int before = 0, now = 0; // iterations of untanglings that have ended, and of the one at work
+    if (call_.lasts(20))
+    {
+        const repair_limits limits{
+            .whole = call_.lasts(100),
+            .time = std::min(call_.clock.left(), std::chrono::duration<double>(1000 * call_.step_seconds)),
+            .ask = [&](const progress& p)
+            {
+                if (p.iteration < now) before += now;
+                now = p.iteration;
+                return before + now < call_.steps_left && call_.clock.ask({.iterate = false});
+            }};
+        auto found = repaired(map_.on(), map_.problem(map_.coordinates(), true), untangling_, limits);
+        call_.count(before + now);
+        done = bool(found);
+        if (done)
+        {
+            map_.load_placed(*std::move(found));
+            call_.report.notes.push_back("steps stuck; the map was untangled with the pins at their places");
+        }
+    }
+    call_.book(&session_seconds::repair,
+               {.stage = "repair", .iterations = before + now, .stop = done ? "injective" : "stuck"});
+    return done;
+}
+
+// Compiled once, with the bodies.
+extern template class incremental_loading<triangle>;
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/map/session/incremental_loading.ipp>
+#endif

@@ -149,4 +149,11 @@ inline session_setup<hinge> shell_setup(const thin_shell& shell, const shell_par
     return setup;
 }
 
+// Compiled once, with the bodies.
+extern template session_setup<triangle> shape_setup(const mesh<triangle>&, const deform_params<triangle>&);
+
 } // namespace taut::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/map/session/shape_setup.ipp>
+#endif

@@ -155,8 +155,8 @@ private:
     }
 
     newton_objective<Element> objective_;
-    device_vectors space_;
-    solve::impl::pcg<device_vectors> pcg_;
+    const device_vectors space_;
+    solve::impl::pcg<const device_vectors> pcg_;
     typename newton_objective<Element>::point x_;
     typename newton_objective<Element>::vector g_, d_;
 };

@@ -60,6 +60,10 @@ impl::infeasibility find_infeasibility(const untangle_problem<Element>& problem)
     return found;
 }
 
+// Compiled once, with the bodies.
+extern template impl::infeasibility find_infeasibility(const untangle_problem<triangle>&);
+extern template impl::infeasibility find_infeasibility(const untangle_problem<tetrahedron>&);
+
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION

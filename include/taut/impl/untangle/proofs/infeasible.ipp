@@ -108,3 +108,11 @@ void judge_places(const untangle_problem<triangle>& p, const facet_table& f, inf
 }
 
 } // namespace taut::impl
+
+namespace taut
+{
+
+template impl::infeasibility find_infeasibility(const untangle_problem<triangle>&);
+template impl::infeasibility find_infeasibility(const untangle_problem<tetrahedron>&);
+
+} // namespace taut

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <taut/impl/map/session/shape_setup.hpp>
+
+namespace taut::impl
+{
+
+template session_setup<triangle> shape_setup(const mesh<triangle>&, const deform_params<triangle>&);
+
+} // namespace taut::impl
