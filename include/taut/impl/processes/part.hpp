@@ -60,12 +60,13 @@ public:
 
     /// Collective. The mesh of another part, given again, whose owned vertices go to these processes, where they keep
     /// their order.
-    part(const part& before, const mesh_piece<Element>& given, const std::vector<std::size_t>& owners)
+    part(const part& before, const mesh_piece<Element>& given, const std::vector<std::size_t>& new_owners)
         : all(before.all), vertices(before.vertices), cells(before.cells), homes_(before.homes_)
     {
         parcels<keyed_vertex> to(all.ranks());
         for (std::size_t v = 0; v < before.own; ++v)
-            to[owners[v]].push_back({static_cast<std::uint64_t>(before.numbers[v]), before.ids[v], before.points[v]});
+            to[new_owners[v]].push_back(
+                {static_cast<std::uint64_t>(before.numbers[v]), before.ids[v], before.points[v]});
         auto owned = all.exchange(to).items;
         std::sort(owned.begin(), owned.end());
         const auto count = static_cast<std::int64_t>(owned.size());

@@ -29,8 +29,8 @@ namespace taut::impl
 struct cutting_params
 {
     double bound = 4.1;                   ///< of the mean isometric energy of the whole surface
-    std::span<const char> seams;          ///< sides that are seams in any case, or empty
-    std::span<const char> together;       ///< sides that are to be none, or empty
+    std::span<const char> seams = {};     ///< sides that are seams in any case, or empty
+    std::span<const char> together = {};  ///< sides that are to be none, or empty
     std::span<const double> factors = {}; ///< what a unit of length of a seam counts along each side, or empty: 1
     bool part = true;                     ///< charts that lie on themselves are parted
     idx coarse = 5000;                    ///< triangles of the surfaces that are searched, about
