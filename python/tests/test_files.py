@@ -98,8 +98,11 @@ def test_a_new_file_takes_texture_coordinates_by_corner(tmp_path):
 
 
 def test_kinds_of_files_are_listed(tmp_path):
+    (tmp_path / "x.unknown").write_text("")
     with pytest.raises(taut.FileError, match=r"[.]obj.*[.]glb.*[.]mesh"):
         taut.read(tmp_path / "x.unknown")
+    with pytest.raises(taut.FileError, match="No such file"):
+        taut.read(tmp_path / "missing.unknown")
 
 
 def test_devices_are_listed():
