@@ -74,6 +74,9 @@ TEST_CASE("predicates: orientation of plain simplices")
     CHECK(orient2d({0, 0}, {0, 1}, {1, 0}) == -1);
     CHECK(orient2d({0, 0}, {1, 1}, {3, 3}) == 0);
     CHECK(taut::impl::orient(vec2(1, 1), vec2(3, 1), vec2(1, 4)).det == 6);
+    CHECK(orient2d({0.1, 0.3}, {0.1, 0.3}, {7, 1e-300}) == 0); // corners in one place
+    CHECK(orient2d({7, 1e-300}, {0.1, 0.3}, {0.1, 0.3}) == 0);
+    CHECK(orient2d({0.1, 0.3}, {7, 1e-300}, {0.1, 0.3}) == 0);
     CHECK(orient3d({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}) == 1);
     CHECK(orient3d({0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}) == -1);
     CHECK(orient3d({0, 0, 0}, {1, 2, 3}, {4, 5, 6}, {7, 8, 9}) == 0);

@@ -141,6 +141,20 @@ TEST_CASE("polygons: a vertex that is named twice in a row, or an outline that g
     CHECK(io::impl::parse_obj(obj_text(points, {{1, 2, 3}, {1, 2, 1, 2}})).surface.cell_count() == 1);
 }
 
+TEST_CASE("polygons: thousands of corners in three places, or on one line, take a bounded number of steps")
+{
+    std::vector<vec2> places, line;
+    std::vector<int> face;
+    for (int k = 0; k < 9000; ++k)
+    {
+        places.push_back(std::array<vec2, 3>{{{-2, -3.125}, {-3, 4.5}, {-1.125, 0}}}[static_cast<std::size_t>(k % 3)]);
+        line.push_back(0.1 * (k * 7919 % 9000) * vec2(1, 3));
+        face.push_back(k + 1);
+    }
+    for (const auto& points : {places, line})
+        CHECK(io::impl::parse_obj(obj_text(points, {face})).surface.cell_count() == 8998);
+}
+
 TEST_CASE("polygons: corners on straight lines get triangles with an area")
 {
     // A triangle with seven corners on one side, and a square with corners on all sides.

@@ -50,7 +50,7 @@ public:
         const auto look_at_all = [&]
         {
             ears_.clear();
-            for (std::size_t k = 0, i = some; k < left; ++k, i = after_[i]) look(i);
+            for (std::size_t k = 0, i = some; k < left && steps_ < most_steps; ++k, i = after_[i]) look(i);
         };
         look_at_all();
         for (bool anew = true; left > 3 && steps_ < most_steps;)
