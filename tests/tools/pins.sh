@@ -22,4 +22,7 @@ test_pins()
     expect 3 unwrap in.obj -o no.obj --pins twice.csv
     says err 'twice.csv, line 2: vertex 0'
     expect 3 unwrap in.obj -o no.obj --pins missing.csv
+    echo 'vertex,u,v' >none.csv # as a page without pins saves it
+    expect 0 unwrap in.obj -o out.obj --pins none.csv
+    says err 'none.csv: no pins in it'
 }

@@ -108,6 +108,7 @@ private:
         add_pins(pins_, pins);
         report_.pins = pins_.pins().size();
         report_.springs = pins_.springs().size();
+        if (pins.empty()) report_.notes.push_back(options_.pins + ": no pins in it; nothing is held");
     }
 
     void parameterize()

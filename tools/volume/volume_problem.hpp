@@ -31,6 +31,8 @@ untangle_problem<Element> problem_of(const volume_case<Element>& input, const un
     report.pin_rounding = held.largest();
     if (!input.file().turned.empty()) report.notes.push_back(turned_note(input.file()));
     if (auto note = held.note(); !note.empty()) report.notes.push_back(std::move(note));
+    if (!options.pins.empty() && pins.pins().size() == groups.all().size() && pins.springs().empty())
+        report.notes.push_back(options.pins + ": no pins in it beyond those of --fix");
     if (!pins.springs().empty()) report.notes.push_back("springs take no part in untangling");
     const bool named = !options.fixed.empty() || !options.pins.empty();
     if (options.boundary == untangle_boundary::fixed || (options.boundary == untangle_boundary::automatic && !named))

@@ -269,8 +269,9 @@ private:
     std::vector<search_setting> settings(idx triangles, double bound)
     {
         search_setting one{.bound = bound, .over = 0.85, .part = params_.part, .proceed = [this] { return proceed(); }};
-        search_setting two = one;
-        two.least_weight = 0.6;
+        search_setting two = one; // as different as it can be: greedy searches that are alike fail alike
+        two.over = 0.95;
+        two.least_weight = 0.8;
         constexpr idx few = 200; // triangles that all settings cut alike
         return triangles < few ? std::vector{one} : std::vector{one, two};
     }
