@@ -37,6 +37,7 @@ struct atlas_job
     std::vector<char> pinned;                   ///< triangles, or none
     bool repair = true, weld = false;
     atlas_params params;
+    run_limits limits;
     std::string device;
 
     std::optional<repaired_surface> repaired;
@@ -68,7 +69,7 @@ struct atlas_job
         weigh_sides();
         take_corners();
         queue_in_use = borrow_queue(device);
-        return make_atlas(*queue_in_use, surface(), params);
+        return make_atlas(*queue_in_use, surface(), params, limits);
     }
 
 private:
@@ -116,7 +117,7 @@ private:
             const auto found = of_edge.find(ordered(vertex_origin(e[0]), vertex_origin(e[1])));
             if (found != of_edge.end()) weights[s] = found->second;
         }
-        params.wishes.weights = weights;
+        params.charts.weights = weights;
     }
 
     /// Coordinates and pins of corners, for the triangles that are left.
@@ -242,7 +243,8 @@ nb::object make(const array& V, const array& F, const nb::dict& keywords, const 
     given.read("weld", job->weld);
     given.read("device", job->device);
     read_atlas_options(job->params, given);
-    job->params.limits.observer = watched.shared->observer("atlas");
+    given.read_seconds("time_limit", job->limits.time_limit);
+    job->limits.observer = watched.shared->observer("atlas");
     return told(run(watched.shared, given.progress(), [job] { return job->make(); }),
                 [job](atlas made) -> nb::object { return dict_of(*job, std::move(made)); });
 }

@@ -33,7 +33,7 @@ _TUNING = ("least_fill", "cut_rounds", "unite_rounds")
 
 
 #: Names of the library that are others here.
-_NAMES = {"hide": "hide_seams", "weights": "seam_weights", "initial": "uv", "corner_uv": "uv"}
+_NAMES = {"weights": "seam_weights", "initial": "uv", "corner_uv": "uv"}
 
 
 @overload

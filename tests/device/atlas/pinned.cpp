@@ -60,8 +60,7 @@ TEST_CASE("make_atlas: beside pinned charts, tiles and faults are of the triangl
             if (params.pinned[c]) CHECK(x == s.uv[c][k]);
         }
 
-    params.keep_charts = true;
-    params.relax = false;
+    params.prefer = chart_preference::laid;
     const atlas folded = make_atlas(q, m, params);
     CHECK(folded.report.reason.find("the chart of triangle 4 is folded") == 0);
     CHECK(folded.report.reason_triangles == std::vector<taut::idx>{4});

@@ -62,7 +62,7 @@ public:
             params.initial.push_back(params_.initial[u(c)]);
             if (!params_.groups.empty()) params.groups.push_back(params_.groups[u(c)]);
         }
-        if (!params_.keep_charts) params.initial.clear();
+        if (!params_.keeps_charts()) params.initial.clear();
         const auto sides = facets(pinned_.charts.surface);
         for (std::size_t k = 0; k < tiles_.size(); ++k)
             for (idx s = 3 * pinned_.charts.first_cell[k]; s < 3 * pinned_.charts.first_cell[k + 1]; ++s)

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/core/types.hpp>
 
@@ -72,10 +71,6 @@ struct pack_params
     /// floats, tiles up to the eighth. 0 to 0.001.
     double rounding = 1e-6;
 
-    /// Limits, after which the best layout so far is returned; a cheap shelf layout is made first. The observer is
-    /// asked every 8 charts of a layout.
-    run_limits limits = {};
-
     /// Throws parameter_error.
     void validate(idx charts) const
     {
@@ -101,7 +96,6 @@ struct pack_params
                 "empty or one tile a chart");
         for (const idx tile : groups) require(tile >= 0 && tile < tiles, "groups", "numbers of tiles");
         require(rounding >= 0 && rounding <= 1e-3, "rounding", "0 to 0.001");
-        limits.validate();
         require(densities.empty() || densities.size() == static_cast<std::size_t>(charts), "densities",
                 "empty or one number a chart");
         for (const impl::tile_wall& wall : walls)

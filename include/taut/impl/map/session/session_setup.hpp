@@ -39,7 +39,6 @@ struct session_setup
     map start{};                            ///< first map, untangled where it is not injective; empty: `first`
     taut::precision precision = precision::automatic;
     solve::params solve{};
-    untangle_params untangling{};
     run_limits limits{}; ///< time_limit: of the first map
 
     /// Computes the first map under constraints.
