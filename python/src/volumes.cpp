@@ -79,7 +79,6 @@ struct shape_job
     smooth_params<Element> smoothing;
     run_limits limits;
     bool refine = false;
-    refine_params refining;
     std::string device;
     std::shared_ptr<queue> queue_in_use;
 
@@ -91,11 +90,9 @@ template <class Element>
 std::shared_ptr<shape_job<Element>> job_of(const array& V, const nb::list& C, const options& given)
 {
     auto job = std::make_shared<shape_job<Element>>(
-        shape_job<Element>{simplices_of<Element>(V, C), {}, {}, {}, false, {}, {}, {}});
+        shape_job<Element>{simplices_of<Element>(V, C), {}, {}, {}, false, {}, {}});
     given.read("device", job->device);
     given.read("refine", job->refine);
-    given.read("refine_rounds", job->refining.rounds);
-    given.read("most_growth", job->refining.max_growth);
     return job;
 }
 
@@ -142,8 +139,7 @@ nb::object deform_of(const array& V, const nb::list& C, const nb::dict& keywords
                     {
                         job->queue_in_use = borrow_queue(job->device);
                         if (job->refine)
-                            return deform(*job->queue_in_use, job->simplices(), job->deforming, job->limits,
-                                          job->refining);
+                            return deform(*job->queue_in_use, job->simplices(), job->deforming, job->limits, {});
                         return impl::refined_deformation<Element>{
                             deform(*job->queue_in_use, job->simplices(), job->deforming, job->limits),
                             job->simplices(),
@@ -200,7 +196,6 @@ struct untangle_job
     untangle_params params;
     run_limits limits;
     bool refine = false;
-    refine_params refining;
     std::string device;
     std::shared_ptr<queue> queue_in_use;
 };
@@ -224,7 +219,6 @@ nb::object untangle_of(const array& X, const nb::list& C, const nb::dict& keywor
                               {},
                               limits_of(given, watched.shared, "untangle"),
                               found->refine,
-                              found->refining,
                               found->device,
                               {}});
     if (!rest) job->problem.wanted = found->cells.regular;
@@ -236,7 +230,7 @@ nb::object untangle_of(const array& X, const nb::list& C, const nb::dict& keywor
                     {
                         job->queue_in_use = borrow_queue(job->device);
                         if (job->refine)
-                            return untangle(*job->queue_in_use, job->problem, job->params, job->limits, job->refining);
+                            return untangle(*job->queue_in_use, job->problem, job->params, job->limits, {});
                         return impl::refined_untangling<Element>{
                             untangle(*job->queue_in_use, job->problem, job->params, job->limits), {job->problem}};
                     }),
