@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -258,7 +259,7 @@ TEST_CASE("pack: the same charts are packed the same way")
 TEST_CASE("pack: ended at once, there still is a layout, and it holds")
 {
     const auto s = support::ragged_charts(100, 40, 20, 9);
-    const auto limited = packed(s, {}, {.time_limit = taut::impl::budget::seconds(1e-9)});
+    const auto limited = packed(s, {}, {.time_limit = std::chrono::nanoseconds(1)});
     CHECK_FALSE(limited.complete);
     CHECK(holds(s, limited));
     int asked = 0;
@@ -360,7 +361,7 @@ TEST_CASE("pack: charts keep away from walls, and fill what these leave")
         }
     // A run that has no time has a layout, too; what is full has none.
     taut::pack_params params;
-    const taut::run_limits none{.time_limit = taut::impl::budget::seconds(1e-9)};
+    const taut::run_limits none{.time_limit = std::chrono::nanoseconds(1)};
     chart_set walls;
     add_wall(params, walls, 0, {0.25, 0.25}, {0.5, 0.5});
     const auto p = packed(squares(5), params, none);

@@ -31,7 +31,7 @@ public:
     /// uv: one per corner of the surface; price: what a seam counts, one a side. All are referred to, but for
     /// `packing` and `limits`, those of each layout.
     filled_square(const mesh<triangle>& m, const facet_table& f, std::span<const vec2> uv,
-                  std::span<const double> price, pack_params packing, run_limits limits)
+                  std::span<const double> price, pack_params packing, run_limits limits = {})
         : mesh_(m),
           facets_(f),
           uv_(uv),
