@@ -35,6 +35,7 @@ struct atlas_job
     std::vector<idx> parts, polygons;           ///< labels of triangles, or none
     std::vector<std::array<vec2, 3>> corner_uv; ///< of triangles, or none
     std::vector<char> pinned;                   ///< triangles, or none
+    std::vector<double> densities;              ///< of triangles, or none
     bool repair = true, weld = false;
     atlas_params params;
     run_limits limits;
@@ -120,7 +121,7 @@ private:
         params.charts.weights = weights;
     }
 
-    /// Coordinates and pins of corners, for the triangles that are left.
+    /// Coordinates and pins of corners, and densities, for the triangles that are left.
     void take_corners()
     {
         const std::size_t cells = surface().cells().size();
@@ -136,6 +137,8 @@ private:
             params.pinned.resize(cells);
             for (std::size_t c = 0; c < cells; ++c) params.pinned[c] = pinned[cell_origin(c)];
         }
+        if (!densities.empty())
+            for (std::size_t c = 0; c < cells; ++c) params.packing.densities.push_back(densities[cell_origin(c)]);
     }
 };
 
@@ -238,7 +241,7 @@ nb::object make(const array& V, const array& F, const nb::dict& keywords, const 
         for (std::size_t i = 0; i < corners.size(); ++i) job->corner_uv[i / 3][i % 3] = corners[i];
     }
     if (const auto a = given.rows("pinned")) job->pinned = flags_of(*a);
-    if (const auto a = given.rows("densities")) job->params.packing.densities = numbers_of(*a);
+    if (const auto a = given.rows("densities")) job->densities = numbers_of(*a);
     given.read("repair", job->repair);
     given.read("weld", job->weld);
     given.read("device", job->device);

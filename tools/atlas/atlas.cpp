@@ -163,8 +163,9 @@ private:
         if (options_.keep_charts()) params.initial = texcoords_of(sources_);
         if (options_.by_material)
         {
-            params.groups = tiles_by_material(*sources_[0]);
-            params.packing.tiles = 1 + *std::max_element(params.groups.begin(), params.groups.end());
+            auto& groups = params.packing.groups;
+            groups = tiles_by_material(*sources_[0]);
+            params.packing.tiles = 1 + *std::max_element(groups.begin(), groups.end());
         }
         if (!options_.pinned.empty())
         {

@@ -53,10 +53,6 @@ struct atlas_params
     /// symmetry_error where there is no such plane.
     bool symmetric = false;
 
-    /// The tile that each triangle's chart is to be in, one number each, or empty. Charts cross from one to another no
-    /// further than `charts.seams` lets them: give the borders of groups as seams.
-    std::vector<idx> groups = {};
-
     /// True if charts that are copies of each other in space, turned and moved, lie on each other: each is a copy of
     /// the first one's map. They do not count as overlaps.
     bool stack = false;

@@ -142,8 +142,12 @@ inline void require(const mesh<triangle>& m, const atlas_params& params)
         throw parameter_error("stack", "is of copies, and mirror images are none; leave out `symmetric`");
     if (!params.charts.weights.empty() && (params.symmetric || !params.pinned.empty()))
         throw parameter_error("weights", "are of the whole surface; leave out `symmetric` and `pinned`");
-    if (!params.groups.empty() && params.groups.size() != m.cells().size())
+    const auto& groups = params.packing.groups;
+    const auto& densities = params.packing.densities;
+    if (!groups.empty() && groups.size() != m.cells().size())
         throw parameter_error("groups", "empty or one tile a triangle");
+    if (!densities.empty() && densities.size() != m.cells().size())
+        throw parameter_error("densities", "empty or one number a triangle");
     if (params.stack && !params.pinned.empty())
         throw parameter_error("stack", "is of charts that are placed; pin none");
     if (!params.pinned.empty() && params.packing.aspect != 1)

@@ -100,7 +100,9 @@ inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
     constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
     constexpr idx few = 16;                               // charts
     const auto& params = of.params;
-    const auto& packing = params.packing;
+    auto packing = params.packing;
+    packing.groups.clear();
+    packing.densities.clear();
     if (params.prefer != chart_preference::seams || params.symmetric || params.stack || !packing.walls.empty() ||
         packing.on_grid() || packing.tiles > 1)
         return;
@@ -136,8 +138,13 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     made.polygons = convex(of, charts); // there is room for it: nothing is beside a chart yet
     if (made.polygons.size() > 0) make_convex(run, of, set, made.polygons);
     auto params = of.params.packing;
-    params.densities = by_chart(charts, grown);
-    params.groups = by_chart(charts, of.params.groups);
+    params.groups = by_chart(charts, params.groups);
+    params.densities = by_chart(charts, params.densities);
+    const auto factors = by_chart(charts, grown);
+    if (params.densities.empty())
+        params.densities = factors;
+    else
+        for (std::size_t k = 0; k < factors.size(); ++k) params.densities[k] *= factors[k];
     auto& stacks = made.stacks;
     if (of.params.stack)
     {

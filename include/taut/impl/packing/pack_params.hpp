@@ -54,14 +54,15 @@ struct pack_params
     /// charts begin at blocks. A power of two, 1 to 64; 1: none.
     int align = 1;
 
-    /// The tile of each chart; empty: any.
+    /// The tile of each chart; empty: any. Of make_atlas() that of each triangle's chart: charts cross from one tile to
+    /// another no further than `charts.seams` lets them, so give the borders of groups as seams.
     std::vector<idx> groups = {};
 
     /// True if charts may be rotated. Otherwise they are only translated and scaled.
     bool rotate = true;
 
     /// Relative texel densities: factors of the lengths of charts, more texels for a face, fewer for a sole. One
-    /// positive number per chart; empty: 1 each.
+    /// positive number per chart, of make_atlas() per triangle, the same within a chart; empty: 1 each.
     std::vector<double> densities = {};
 
     /// Obstacles in the tiles, from which charts keep the padding.
