@@ -7,7 +7,6 @@
 
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/session_result.hpp>
-#include <taut/impl/untangle/params.hpp>
 
 namespace taut::impl
 {

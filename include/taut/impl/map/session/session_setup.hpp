@@ -5,13 +5,13 @@
 #include <vector>
 
 #include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/constrain/slide.hpp>
 #include <taut/impl/core/observer.hpp>
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/session_result.hpp>
 #include <taut/impl/objective/mapped_mesh.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
-#include <taut/impl/untangle/params.hpp>
 
 namespace taut::impl
 {
