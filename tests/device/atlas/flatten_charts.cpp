@@ -225,7 +225,7 @@ TEST_CASE("flatten_charts: charts without a map say why, and the others stay")
     {
         CAPTURE(flat.charts[k].reason);
         CHECK_FALSE(flat.charts[k].valid);
-        CHECK(flat.charts[k].outcome == chart_outcome::no_map);
+        CHECK(flat.charts[k].outcome == flat.no_map);
         CHECK(flat.charts[k].energy == std::numeric_limits<double>::infinity());
         CHECK(flat.charts[k].reason.find(words[k - 1]) != std::string::npos);
         for (const vec2& p : map_of(charts, flat, idx(k))) CHECK(p == vec2(0.0));
