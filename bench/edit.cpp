@@ -38,7 +38,7 @@ double at_rank(std::vector<double> values, double part)
 void time_paste(queue& q, const std::string& name, const mesh<triangle>& source, idx at, double radius,
                 const mesh<triangle>& target, idx onto, double scale, int steps, nlohmann::ordered_json& results)
 {
-    const auto part = make_feature(geodesic_disk(source, at, radius));
+    const feature part(geodesic_disk(source, at, radius));
     const paste_params params{.pose = {.scale = scale}};
     paste p(q, target, part, onto, params); // kernels are built
     const double whole = bench::seconds([&] { p = paste(q, target, part, onto, params); });
@@ -68,7 +68,7 @@ void time_paste(queue& q, const std::string& name, const mesh<triangle>& source,
                     1e3 * at_rank(times, 0.95));
         result[softness > 0 ? "soft_step" : "step"] = at_rank(times, 0.5);
     }
-    const auto seam = measure_seam(p.surface(), p.first_gap(), p.first_feature());
+    const auto seam = p.measure_seam();
     std::printf("%s, %d boundary edges, %d degenerate, angle across the rim %.1f median, %.1f largest\n\n",
                 seam.manifold ? "manifold" : "not manifold", seam.boundary_edges, seam.degenerate, seam.median_angle,
                 seam.largest_angle);

@@ -40,10 +40,9 @@ inline solver_run run_library(taut::queue& q, const std::filesystem::path& path,
     const auto begin = clock::now();
     const auto m = taut::io::read_surface(path);
     run.seconds.read = std::chrono::duration<double>(clock::now() - begin).count();
-    p.limits.time_limit = std::chrono::duration<double>(limits.seconds);
-    p.limits.observer = [&](const taut::progress& at)
+    const auto watch = [&](const taut::progress& at)
     { return !(at.iterate && at.level == 0 && at.value <= limits.enough && at.value > 0); };
-    const auto [uv, r] = taut::parameterize(q, m, p);
+    const auto [uv, r] = taut::parameterize(q, m, p, {std::chrono::duration<double>(limits.seconds), watch});
     const double wall = std::chrono::duration<double>(clock::now() - begin).count();
     run.cpu_seconds = cpu_seconds() - cpu;
     run.peak_bytes = memory.bytes();
@@ -84,9 +83,6 @@ inline std::vector<solver> library_solvers(taut::queue& q)
                              return run_library(q, path, p, limits);
                          }});
     };
-    const taut::impl::barycentric_params tutte{
-        .boundary = {.shape = taut::boundary_shape::circle, .spacing = taut::boundary_spacing::chord},
-        .weights = taut::barycentric_weights::uniform};
     const auto without_end = [](parameterize_params& p)
     {
         p.solve.stopping.max_iterations = 1000000;
@@ -94,11 +90,7 @@ inline std::vector<solver> library_solvers(taut::queue& q)
     };
     add("nested", true, [](parameterize_params&) {}); // the default: coarse to fine, Newton with multigrid
     add("newton", true,                               // the same from the plain barycentric map
-        [=](parameterize_params& p)
-        {
-            p.start = taut::start_method::barycentric;
-            p.barycentric = tutte;
-        });
+        [](parameterize_params& p) { p.start = taut::start_method::tutte; });
     add("nested lbfgs", false, // the V-cycle of the start's Hessian as H0
         [=](parameterize_params& p)
         {
@@ -117,7 +109,7 @@ inline std::vector<solver> library_solvers(taut::queue& q)
         [=](parameterize_params& p)
         {
             p.solve.method = taut::solve::method::conjugate_gradient;
-            p.barycentric = tutte;
+            p.start = taut::start_method::tutte;
             without_end(p);
         });
     return table;

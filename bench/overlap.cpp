@@ -69,7 +69,7 @@ int run(const bench::options& options)
     if (options.quick) subjects = {subjects.front(), subjects.back()};
     parameterize_params params;
     params.holes = true;
-    params.limits.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")));
+    const run_limits limits{.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")))};
 
     queue q;
     auto report = bench::circumstances(q);
@@ -81,7 +81,7 @@ int run(const bench::options& options)
         const auto m = make();
         const auto loops = boundary_loops(m);
         params.no_overlap = true;
-        const auto r = parameterize(q, m, params);
+        const auto r = parameterize(q, m, params, limits);
         if (!r)
         {
             std::printf("%-24s %7d | %s\n", name.c_str(), m.cell_count(), r.reason().c_str());
@@ -93,7 +93,7 @@ int run(const bench::options& options)
         if (overlap.before.pairs == 0)
         {
             params.no_overlap = false;
-            const auto free = parameterize(q, m, params);
+            const auto free = parameterize(q, m, params, limits);
             if (free.uv != r.uv) throw std::runtime_error(name + ": another map where there was nothing to do");
             check = bench::seconds([&] { static_cast<void>(boundary_crossings(loops, r.uv)); });
         }

@@ -40,20 +40,19 @@ nlohmann::ordered_json measure(queue& q, const std::string& name, const mesh<tri
     usage u;
     parameterize_params p;
     p.weights = energy::weighting::uniform;
-    p.barycentric = {.boundary = {.shape = boundary_shape::circle, .spacing = boundary_spacing::chord},
-                     .weights = barycentric_weights::uniform};
+    p.start = start_method::tutte;
     p.precision = how.precision;
-    p.solve.line_search.method = how.line_search;
+    p.solve.line_search = how.line_search;
     p.solve.method = solve::method::conjugate_gradient;
-    p.solve.conjugate_gradient.memory.pairs = how.pairs;
+    p.solve.tuning.conjugate_gradient.memory.pairs = how.pairs;
     p.solve.stopping.max_iterations = iterations;
     p.solve.stopping.gradient_tolerance = 0;
-    p.limits.observer = [&](const taut::progress& at)
+    const auto watch = [&](const taut::progress& at)
     {
         (at.iteration == 0 && at.iterate ? u.first : u.last) = q.counters();
         return true;
     };
-    const auto result = parameterize(q, m, p);
+    const auto result = parameterize(q, m, p, {.observer = watch});
     const auto& r = result.report;
     if (!result) throw std::runtime_error(name + ": " + result.reason());
 

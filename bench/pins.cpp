@@ -94,10 +94,8 @@ tally measure(queue& q, const std::string& name, const mesh<triangle>& m, int ca
         }
         map_result r;
         const double seconds = bench::seconds(
-            [&] {
-                r = parameterize(
-                    q, m, {.constraints = wanted, .limits = {.time_limit = std::chrono::duration<double>(limit)}});
-            });
+            [&]
+            { r = parameterize(q, m, {.constraints = wanted}, {.time_limit = std::chrono::duration<double>(limit)}); });
         bool right = !r || (certify<2>(m.cells(), r.uv).flipped == 0 && test::wound_vertices(m, r.uv).empty());
         for (const auto& [v, pin] : wanted.pins())
             right = right && (!r || r.uv[static_cast<std::size_t>(v)] == pin.value);

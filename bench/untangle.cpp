@@ -66,7 +66,8 @@ class untangle_bench
 {
 public:
     /// steps: of the optimisation afterwards; 0: none
-    untangle_bench(queue& q, untangle_params params, int steps) : queue_(q), params_(std::move(params)), steps_(steps)
+    untangle_bench(queue& q, untangle_params params, run_limits limits, int steps)
+        : queue_(q), params_(std::move(params)), limits_(std::move(limits)), steps_(steps)
     {
         std::printf("%-32s %7s %7s %6s %8s  %-10s %-9s %8s %9s  %s%s\n", "problem", "V", "F", "pinned", "inverted",
                     "outcome", "stage", "seconds", "least det", "held",
@@ -79,7 +80,7 @@ public:
     {
         constexpr int D = Element::dimension;
         const auto start = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial));
-        const auto r = untangle(queue_, problem, params_);
+        const auto r = untangle(queue_, problem, params_, limits_);
         const auto flips = certify<D>(problem.rest.cells(), std::span<const vec<D>>(r.map));
         bool held = true;
         const auto pinned = problem.held.count();
@@ -89,7 +90,8 @@ public:
                                 std::memcmp(&r.map[v][k], &problem.initial[v][k], sizeof(double)) == 0);
         if (!held || (r && flips.flipped > 0)) throw std::runtime_error(name + ": a wrong answer");
         std::printf("%-32s %7d %7d %6zu %8zu  %-10s %-9s %8.2f %9.2g  %s", name.c_str(), problem.rest.vertex_count(),
-                    problem.rest.cell_count(), pinned, start.flipped, std::string(to_string(r.outcome)).c_str(),
+                    problem.rest.cell_count(), pinned, start.flipped,
+                    r ? "injective" : std::string(to_string(r.outcome)).c_str(),
                     r ? r.stage.c_str() : std::to_string(flips.flipped).c_str(), r.seconds, r.least_relative_det,
                     held ? "exact" : "MOVED");
         nlohmann::ordered_json optimised;
@@ -107,8 +109,8 @@ public:
         for (auto* t : {&classes_[labels[0] + ", " + labels[1]], &all_})
         {
             ++t->problems;
-            t->injective += r.outcome == untangle_outcome::injective;
-            t->infeasible += r.outcome == untangle_outcome::infeasible;
+            t->injective += r.outcome == outcome::valid;
+            t->infeasible += r.outcome == outcome::infeasible;
             t->seconds += r.seconds;
         }
         results.push_back({{"problem", name},
@@ -118,7 +120,7 @@ public:
                            {"elements", problem.rest.cell_count()},
                            {"pinned", pinned},
                            {"inverted_at_start", start.flipped},
-                           {"outcome", to_string(r.outcome)},
+                           {"outcome", r ? "injective" : to_string(r.outcome)},
                            {"stage", r.stage},
                            {"inverted", flips.flipped},
                            {"least_relative_det", r.least_relative_det},
@@ -216,6 +218,7 @@ private:
 
     queue& queue_;
     untangle_params params_;
+    run_limits limits_;
     int steps_;
     int optimised_ = 0, converged_ = 0; ///< of the maps that were found; to a relative gradient of 1e-6
     std::map<std::string, tally> classes_;
@@ -246,13 +249,13 @@ try
 {
     const bench::options options(argc, argv, {"--limit", "--stages", "--optimize"});
     untangle_params params;
-    params.limits.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")));
+    const run_limits limits{.time_limit = std::chrono::duration<double>(std::stod(options.value("--limit", "60")))};
     params.stages = split(options.value("--stages", ""), ',');
     queue q;
     auto report = bench::circumstances(q);
-    report["limit"] = params.limits.time_limit.count();
+    report["limit"] = limits.time_limit.count();
     std::printf("taut %s %s on %s\n\n", TAUT_VERSION_STRING, TAUT_BENCH_COMMIT, q.device().name().c_str());
-    untangle_bench bench(q, params, std::stoi(options.value("--optimize", options.quick ? "50" : "0")));
+    untangle_bench bench(q, params, limits, std::stoi(options.value("--optimize", options.quick ? "50" : "0")));
     std::vector<fs::path> files;
     for (const fs::path path : options.paths)
         if (fs::is_directory(path))

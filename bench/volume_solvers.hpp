@@ -56,12 +56,12 @@ public:
         taut::deform_params<tetrahedra> params;
         params.constraints = pins_;
         params.initial = start_;
-        params.limits.observer = [&](const taut::progress& p)
+        const auto watched = [&](const taut::progress& p)
         {
             if (p.iterate) run.history.push_back(watch.at(p.iteration, p.value));
             return true;
         };
-        const auto r = taut::deform(queue_, mesh_, params);
+        const auto r = taut::deform(queue_, mesh_, params, {.observer = watched});
         run.valid = r && r.report.pins_held;
         run.iterations = r.report.steps;
         run.energy = r.report.energy;
@@ -99,15 +99,14 @@ public:
         auto x = f.make_point();
         f.upload(start_, x);
         taut::solve::params how{.method = taut::solve::method::lbfgs};
-        how.stopping = {
-            .gradient_tolerance = 0, .max_iterations = 1000000, .time_limit = std::chrono::duration<double>(limit_)};
-        const auto r = taut::solve::minimize(f, x, how,
-                                             [&](const taut::progress& p)
-                                             {
-                                                 if (!p.iterate) return true;
-                                                 run.history.push_back(watch.at(p.iteration, p.value));
-                                                 return p.value > enough;
-                                             });
+        how.stopping = {.gradient_tolerance = 0, .max_iterations = 1000000};
+        const auto watched = [&](const taut::progress& p)
+        {
+            if (!p.iterate) return true;
+            run.history.push_back(watch.at(p.iteration, p.value));
+            return p.value > enough;
+        };
+        const auto r = taut::solve::minimize(f, x, how, {std::chrono::duration<double>(limit_), watched});
         run.valid = true;
         run.iterations = r.iterations;
         run.energy = r.value;

@@ -22,7 +22,7 @@ try
 
     // [paste]
     queue q;
-    const feature part = make_feature(geodesic_disk(source.surface, at, std::atof(argv[3])));
+    const feature part(geodesic_disk(source.surface, at, std::atof(argv[3])));
     paste p(q, target.surface, part, onto, {.pose = {.scale = 0.5}});
     for (int frame = 0; frame < 10; ++frame) // each costs a back-substitution or two and as many kernels
         p.pose({.turn = 0.1 * frame, .scale = 0.5, .softness = 0.05 * frame});
@@ -35,7 +35,7 @@ try
         io::write_paste(out, p, target, source);
         out.commit();
     }
-    const auto seam = measure_seam(once, p.first_gap(), p.first_feature());
+    const auto seam = p.measure_seam();
     std::cout << p.report().feature_triangles << " triangles pasted, rim " << p.report().way << ", "
               << (seam.manifold ? "manifold" : "not manifold") << ", " << seam.boundary_edges << " boundary edges, "
               << seam.degenerate << " degenerate\n";

@@ -7,7 +7,7 @@ namespace taut::dist
 {
 
 template class session<tetrahedron>;
-template result<tetrahedron> smooth(MPI_Comm, const mesh_piece<tetrahedron>&, const smooth_params&);
+template result<tetrahedron> smooth(MPI_Comm, const mesh_piece<tetrahedron>&, const smooth_params&, const run_limits&);
 template session<tetrahedron> impl::smoothing_session(MPI_Comm, const mesh_piece<tetrahedron>&, const smooth_params&);
 template certificate check(MPI_Comm, const mesh_piece<tetrahedron>&);
 

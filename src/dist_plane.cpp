@@ -7,7 +7,7 @@ namespace taut::dist
 {
 
 template class session<triangle>;
-template result<triangle> smooth(MPI_Comm, const mesh_piece<triangle>&, const smooth_params&);
+template result<triangle> smooth(MPI_Comm, const mesh_piece<triangle>&, const smooth_params&, const run_limits&);
 template session<triangle> impl::smoothing_session(MPI_Comm, const mesh_piece<triangle>&, const smooth_params&);
 template certificate check(MPI_Comm, const mesh_piece<triangle>&);
 

@@ -35,8 +35,10 @@ struct atlas_job
     std::vector<idx> parts, polygons;           ///< labels of triangles, or none
     std::vector<std::array<vec2, 3>> corner_uv; ///< of triangles, or none
     std::vector<char> pinned;                   ///< triangles, or none
+    std::vector<double> densities;              ///< of triangles, or none
     bool repair = true, weld = false;
     atlas_params params;
+    run_limits limits;
     std::string device;
 
     std::optional<repaired_surface> repaired;
@@ -68,7 +70,7 @@ struct atlas_job
         weigh_sides();
         take_corners();
         queue_in_use = borrow_queue(device);
-        return make_atlas(*queue_in_use, surface(), params);
+        return make_atlas(*queue_in_use, surface(), params, limits);
     }
 
 private:
@@ -116,10 +118,10 @@ private:
             const auto found = of_edge.find(ordered(vertex_origin(e[0]), vertex_origin(e[1])));
             if (found != of_edge.end()) weights[s] = found->second;
         }
-        params.wishes.weights = weights;
+        params.charts.weights = weights;
     }
 
-    /// Coordinates and pins of corners, for the triangles that are left.
+    /// Coordinates and pins of corners, and densities, for the triangles that are left.
     void take_corners()
     {
         const std::size_t cells = surface().cells().size();
@@ -135,6 +137,8 @@ private:
             params.pinned.resize(cells);
             for (std::size_t c = 0; c < cells; ++c) params.pinned[c] = pinned[cell_origin(c)];
         }
+        if (!densities.empty())
+            for (std::size_t c = 0; c < cells; ++c) params.packing.densities.push_back(densities[cell_origin(c)]);
     }
 };
 
@@ -237,12 +241,13 @@ nb::object make(const array& V, const array& F, const nb::dict& keywords, const 
         for (std::size_t i = 0; i < corners.size(); ++i) job->corner_uv[i / 3][i % 3] = corners[i];
     }
     if (const auto a = given.rows("pinned")) job->pinned = flags_of(*a);
-    if (const auto a = given.rows("densities")) job->params.packing.densities = numbers_of(*a);
+    if (const auto a = given.rows("densities")) job->densities = numbers_of(*a);
     given.read("repair", job->repair);
     given.read("weld", job->weld);
     given.read("device", job->device);
     read_atlas_options(job->params, given);
-    job->params.limits.observer = watched.shared->observer("atlas");
+    given.read_seconds("time_limit", job->limits.time_limit);
+    job->limits.observer = watched.shared->observer("atlas");
     return told(run(watched.shared, given.progress(), [job] { return job->make(); }),
                 [job](atlas made) -> nb::object { return dict_of(*job, std::move(made)); });
 }

@@ -42,20 +42,11 @@ inline void read_atlas_options(atlas_params& params, const options& given)
     given.read("max_resolution", packing.max_resolution);
     given.read("align", packing.align);
     given.read("stack", params.stack);
-    given.read("hide_seams", params.wishes.hide);
-    given.read("crease_angle", params.wishes.crease_angle);
-    enum class use
-    {
-        make,
-        keep,
-        pack
-    };
-    use charts_from = use::make;
-    given.read_word("charts", charts_from, {{"auto", use::make}, {"keep", use::keep}, {"pack", use::pack}});
-    params.keep_charts = charts_from != use::make;
-    params.relax = charts_from != use::pack;
+    given.read("hide_seams", params.hide_seams);
+    given.read("crease_angle", params.crease_angle);
+    given.read_word("charts", params.prefer,
+                    {{"auto", params.prefer}, {"keep", chart_preference::kept}, {"pack", chart_preference::laid}});
     if (given.get("single", false)) params.stored = in_float;
-    given.read_seconds("time_limit", params.limits.time_limit);
 }
 
 } // namespace taut::python

@@ -14,7 +14,7 @@ namespace taut::python
 {
 
 /// What unwrap() and sessions of maps take. The mesh is to live as long as the parameters.
-parameterize_params map_params(const options& given, const mesh<triangle>& m, const std::shared_ptr<control>& watched);
+parameterize_params map_params(const options& given, const mesh<triangle>& m);
 
 // Each adds what its file is about to the module.
 void add_maps(nb::module_& m);

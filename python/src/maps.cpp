@@ -15,7 +15,7 @@
 namespace taut::python
 {
 
-parameterize_params map_params(const options& given, const mesh<triangle>& m, const std::shared_ptr<control>& watched)
+parameterize_params map_params(const options& given, const mesh<triangle>& m)
 {
     parameterize_params params;
     read_energy(params, given);
@@ -24,15 +24,14 @@ parameterize_params map_params(const options& given, const mesh<triangle>& m, co
     if (const auto a = given.rows("initial")) params.initial = points_of<2>(*a, "initial");
     given.read_word(
         "boundary", params.boundary,
-        {{"free", boundary_mode::free}, {"circle", boundary_mode::fixed}, {"square", boundary_mode::fixed}});
-    if (given.get<std::string>("boundary", "") == "square") params.barycentric.boundary.shape = boundary_shape::square;
+        {{"free", boundary_mode::free}, {"circle", boundary_mode::fixed}, {"square", boundary_mode::square}});
     given.read_word("placement", params.placement,
                     {{"upright", placement::upright},
                      {"unit_square", placement::unit_square},
                      {"as_solved", placement::as_solved}});
     given.read("no_overlap", params.no_overlap);
     given.read("holes", params.holes);
-    read_limits(params, given, watched, "map");
+    read_solver(params, given);
     // A tolerance or a number of steps asks for that, not for what has settled.
     if (given.find("tolerance")) params.solve.stopping.settled_tolerance = 0;
     return params;
@@ -47,6 +46,7 @@ struct map_job
     mesh<triangle> surface;
     std::optional<chart_mesh> cut;
     parameterize_params params;
+    run_limits limits;
     std::shared_ptr<queue> device;
 };
 
@@ -93,17 +93,19 @@ nb::dict for_cut_surface(const nb::dict& given, const mesh<triangle>& whole, con
 nb::object unwrap(const array& V, const array& F, const nb::dict& keywords, const control_handle& watched)
 {
     options given(keywords);
-    auto job = std::make_shared<map_job>(map_job{mesh_of<triangle>(V, F), {}, {}, {}});
+    auto job = std::make_shared<map_job>(map_job{mesh_of<triangle>(V, F), {}, {}, {}, {}});
     if (given.get("cut", false)) job->cut = cut_if_needed(job->surface);
     if (job->cut) given = options(for_cut_surface(keywords, job->surface, *job->cut));
     const mesh<triangle>& m = job->cut ? job->cut->surface : job->surface;
-    job->params = map_params(given, m, watched.shared);
+    job->params = map_params(given, m);
+    job->limits = limits_of(given, watched.shared, "map");
     const auto device = given.get<std::string>("device", "");
     return told(run(watched.shared, given.progress(),
                     [job, device]
                     {
                         job->device = borrow_queue(device);
-                        return parameterize(*job->device, job->cut ? job->cut->surface : job->surface, job->params);
+                        return parameterize(*job->device, job->cut ? job->cut->surface : job->surface, job->params,
+                                            job->limits);
                     }),
                 [job](map_result result) -> nb::object
                 {

@@ -21,8 +21,9 @@ struct pack_job
     std::vector<std::array<idx, 3>> cells;
     std::vector<idx> first_cell, first_vertex;
     pack_params params;
+    run_limits limits;
 
-    packing make() const { return pack(uv, cells, first_cell, first_vertex, params); }
+    packing make() const { return pack(uv, cells, first_cell, first_vertex, params, limits); }
 };
 
 /// Outlines that are in the tiles already: rows of tile, then the two ends of an edge within its tile.
@@ -50,10 +51,10 @@ nb::object pack_of(const array& uv, const array& F, const array& first_cell, con
     given.read("tiles", params.tiles);
     given.read("rotate", params.rotate);
     given.read("rounding", params.rounding);
-    given.read_seconds("time_limit", params.limits.time_limit);
+    given.read_seconds("time_limit", job->limits.time_limit);
     if (const auto a = given.rows("densities")) params.densities = numbers_of(*a);
     if (const auto tiles = given.rows("wall_tiles")) params.walls = walls_of(*tiles, *given.rows("wall_ends"));
-    params.limits.observer = watched.shared->observer("pack");
+    job->limits.observer = watched.shared->observer("pack");
     return told(run(watched.shared, given.progress(), [job] { return job->make(); }),
                 [job](const packing& made) -> nb::object
                 {

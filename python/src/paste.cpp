@@ -21,6 +21,7 @@ struct paste_job
     double radius = 0; ///< around `at`, where there are no faces
     bool unfold = false;
     paste_params params;
+    run_limits limits;
     std::string device;
     std::shared_ptr<queue> queue_in_use;
 };
@@ -41,7 +42,7 @@ pasted make(paste_job& job)
     job.queue_in_use = borrow_queue(job.device);
     auto region =
         job.faces.empty() ? geodesic_disk(job.source, job.at, job.radius) : region_of_faces(job.source, job.faces);
-    paste p(*job.queue_in_use, job.target, make_feature(std::move(region)), job.onto, job.params);
+    paste p(*job.queue_in_use, job.target, feature(std::move(region)), job.onto, job.params, job.limits);
     pasted made;
     if (job.unfold) made.unfolded = p.unfold();
     made.points = p.points();
@@ -51,7 +52,7 @@ pasted make(paste_job& job)
     made.first_gap = p.first_gap();
     made.first_feature = p.first_feature();
     made.report = p.report();
-    made.seam = measure_seam(p.surface(), p.first_gap(), p.first_feature());
+    made.seam = p.measure_seam();
     return made;
 }
 
@@ -77,8 +78,17 @@ nb::object paste_of(const array& V, const array& F, const array& source_V, const
                     const nb::dict& keywords, const control_handle& watched)
 {
     const options given(keywords);
-    auto job = std::make_shared<paste_job>(
-        paste_job{mesh_of<triangle>(V, F), mesh_of<triangle>(source_V, source_F), {}, 0, 0, 0, false, {}, {}, {}});
+    auto job = std::make_shared<paste_job>(paste_job{mesh_of<triangle>(V, F),
+                                                     mesh_of<triangle>(source_V, source_F),
+                                                     {},
+                                                     0,
+                                                     0,
+                                                     0,
+                                                     false,
+                                                     {},
+                                                     {.time_limit = std::chrono::seconds(20)},
+                                                     {},
+                                                     {}});
     given.read("onto", job->onto);
     given.read("at", job->at);
     given.read("radius", job->radius);
@@ -94,7 +104,7 @@ nb::object paste_of(const array& V, const array& F, const array& source_V, const
         job->params.pose.shift = vec3(numbers[0], numbers[1], numbers[2]);
     }
     given.read("reach", job->params.reach);
-    given.read_seconds("time_limit", job->params.limits.time_limit);
+    given.read_seconds("time_limit", job->limits.time_limit);
     given.read("device", job->device);
     return told(run(watched.shared, given.progress(), [job] { return make(*job); }),
                 [](pasted made) -> nb::object { return dict_of(std::move(made)); });

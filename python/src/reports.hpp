@@ -36,9 +36,7 @@ template <class Element>
 nb::dict dict_of(untangle_result<Element> r)
 {
     nb::dict d;
-    d["outcome"] = r.outcome == untangle_outcome::injective    ? "valid"
-                   : r.outcome == untangle_outcome::infeasible ? "infeasible"
-                                                               : "gave_up";
+    d["outcome"] = r.outcome == outcome::valid ? "valid" : r.outcome == outcome::infeasible ? "infeasible" : "gave_up";
     d["reason"] = text(r.reason);
     d["ids"] = array_of(r.ids);
     d["converged"] = bool(r);

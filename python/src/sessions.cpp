@@ -76,7 +76,8 @@ public:
     open_session(const array& V, const array& C, const nb::dict& keywords) : state_(std::make_shared<state>())
     {
         const options given(keywords);
-        const auto nobody = std::make_shared<control>();
+        run_limits limits;
+        given.read_seconds("time_limit", limits.time_limit);
         const auto device = given.get<std::string>("device", "");
         if constexpr (std::is_same_v<Element, hinge>)
         {
@@ -84,9 +85,9 @@ public:
             shell_params params;
             params.constraints = constraints_of(state_->shell->hinges(), given);
             if (double thickness = 0; given.read("thickness", thickness)) params.thickness = thickness;
-            read_limits(params, given, nobody, "session");
-            begin(device, std::move(params),
-                  [](state& s, const auto& p) { s.open.emplace(*s.queue_in_use, *s.shell, p); });
+            read_solver(params, given);
+            begin(device, params, std::move(limits),
+                  [](state& s, const auto& p, const auto& l) { s.open.emplace(*s.queue_in_use, *s.shell, p, l); });
         }
         else
         {
@@ -97,13 +98,13 @@ public:
                 read_energy(params, given);
                 params.constraints = constraints_of(*state_->cells, given);
                 if (const auto a = given.rows("initial")) params.initial = points_of<D>(*a, "initial");
-                read_limits(params, given, nobody, "session");
-                begin(device, std::move(params),
-                      [](state& s, const auto& p) { s.open.emplace(*s.queue_in_use, *s.cells, p); });
+                read_solver(params, given);
+                begin(device, params, std::move(limits),
+                      [](state& s, const auto& p, const auto& l) { s.open.emplace(*s.queue_in_use, *s.cells, p, l); });
             }
             else if constexpr (std::is_same_v<Element, triangle>)
-                begin(device, map_params(given, *state_->cells, nobody),
-                      [](state& s, const auto& p) { s.open.emplace(*s.queue_in_use, *s.cells, p); });
+                begin(device, map_params(given, *state_->cells), std::move(limits),
+                      [](state& s, const auto& p, const auto& l) { s.open.emplace(*s.queue_in_use, *s.cells, p, l); });
         }
     }
 
@@ -188,12 +189,12 @@ private:
     }
 
     template <class Params, class Open>
-    void begin(const std::string& device, Params params, const Open& open)
+    void begin(const std::string& device, const Params& params, run_limits limits, const Open& open)
     {
-        params.limits.observer = state_->asked->observer(state_->asked);
+        limits.observer = state_->asked->observer(state_->asked);
         nb::gil_scoped_release unlocked;
         state_->queue_in_use = borrow_queue(device);
-        open(*state_, params);
+        open(*state_, params, limits);
     }
 
     /// Throws device_error while another thread, or a call that Ctrl-C has left, works on it.

@@ -12,9 +12,9 @@
 namespace taut::python
 {
 
-/// What the calls have in common: energy, numbers for it, precision, stopping, the clock and who watches.
+/// Precision and stopping of calls that minimise.
 template <class Params>
-void read_limits(Params& params, const options& given, const std::shared_ptr<control>& watched, const char* stage)
+void read_solver(Params& params, const options& given)
 {
     given.read_word("precision", params.precision,
                     {{"auto", precision::automatic},
@@ -23,8 +23,15 @@ void read_limits(Params& params, const options& given, const std::shared_ptr<con
                      {"fp32", precision::fp32}});
     given.read("tolerance", params.solve.stopping.gradient_tolerance);
     given.read("iterations", params.solve.stopping.max_iterations);
-    given.read_seconds("time_limit", params.limits.time_limit);
-    params.limits.observer = watched->observer(stage);
+}
+
+/// The clock of a call, and who watches.
+inline run_limits limits_of(const options& given, const std::shared_ptr<control>& watched, const char* stage)
+{
+    run_limits limits;
+    given.read_seconds("time_limit", limits.time_limit);
+    limits.observer = watched->observer(stage);
+    return limits;
 }
 
 inline cell_data data_of(const options& given)

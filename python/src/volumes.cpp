@@ -77,8 +77,8 @@ struct shape_job
     io::impl::corner_simplices<Element> cells;
     deform_params<Element> deforming;
     smooth_params<Element> smoothing;
+    run_limits limits;
     bool refine = false;
-    refine_params refining;
     std::string device;
     std::shared_ptr<queue> queue_in_use;
 
@@ -90,11 +90,9 @@ template <class Element>
 std::shared_ptr<shape_job<Element>> job_of(const array& V, const nb::list& C, const options& given)
 {
     auto job = std::make_shared<shape_job<Element>>(
-        shape_job<Element>{simplices_of<Element>(V, C), {}, {}, false, {}, {}, {}});
+        shape_job<Element>{simplices_of<Element>(V, C), {}, {}, {}, false, {}, {}});
     given.read("device", job->device);
     given.read("refine", job->refine);
-    given.read("refine_rounds", job->refining.rounds);
-    given.read("most_growth", job->refining.max_growth);
     return job;
 }
 
@@ -134,15 +132,20 @@ nb::object deform_of(const array& V, const nb::list& C, const nb::dict& keywords
     if (const auto a = given.rows("initial")) params.initial = points_of<D>(*a, "initial");
     given.read_word("shapes", params.shapes, {{"rest", target_shapes::rest}, {"regular", target_shapes::regular}});
     read_slides(params, given);
-    read_limits(params, given, watched.shared, "deform");
+    read_solver(params, given);
+    job->limits = limits_of(given, watched.shared, "deform");
     return told(run(watched.shared, given.progress(),
                     [job]
                     {
                         job->queue_in_use = borrow_queue(job->device);
                         if (job->refine)
-                            return deform(*job->queue_in_use, job->simplices(), job->deforming, job->refining);
+                            return deform(*job->queue_in_use, job->simplices(), job->deforming, job->limits, {});
                         return impl::refined_deformation<Element>{
-                            deform(*job->queue_in_use, job->simplices(), job->deforming), job->simplices(), {}, {}, 0};
+                            deform(*job->queue_in_use, job->simplices(), job->deforming, job->limits),
+                            job->simplices(),
+                            {},
+                            {},
+                            0};
                     }),
                 [job](impl::refined_deformation<Element> made) -> nb::object
                 {
@@ -168,12 +171,13 @@ nb::object smooth_of(const array& V, const nb::list& C, const nb::dict& keywords
     if (const auto a = given.rows("fixed")) params.fixed = ids_of(*a);
     params.owners = job->owners();
     if (job->cells.overlapping) params.targets = job->cells.regular;
-    read_limits(params, given, watched.shared, "smooth");
+    read_solver(params, given);
+    job->limits = limits_of(given, watched.shared, "smooth");
     return told(run(watched.shared, given.progress(),
                     [job]
                     {
                         job->queue_in_use = borrow_queue(job->device);
-                        return smooth(*job->queue_in_use, job->simplices(), job->smoothing);
+                        return smooth(*job->queue_in_use, job->simplices(), job->smoothing, job->limits);
                     }),
                 [](smooth_result<Element> made) -> nb::object
                 {
@@ -190,8 +194,8 @@ struct untangle_job
 {
     untangle_problem<Element> problem;
     untangle_params params;
+    run_limits limits;
     bool refine = false;
-    refine_params refining;
     std::string device;
     std::shared_ptr<queue> queue_in_use;
 };
@@ -213,23 +217,22 @@ nb::object untangle_of(const array& X, const nb::list& C, const nb::dict& keywor
     auto job = std::make_shared<untangle_job<Element>>(
         untangle_job<Element>{make_untangle_problem(at_rest, std::move(initial), pins),
                               {},
+                              limits_of(given, watched.shared, "untangle"),
                               found->refine,
-                              found->refining,
                               found->device,
                               {}});
     if (!rest) job->problem.wanted = found->cells.regular;
     job->problem.owners = found->owners();
-    given.read_seconds("time_limit", job->params.limits.time_limit);
     given.read("stages", job->params.stages);
     given.read("rounds", job->params.rounds);
-    job->params.limits.observer = watched.shared->observer("untangle");
     return told(run(watched.shared, given.progress(),
                     [job]
                     {
                         job->queue_in_use = borrow_queue(job->device);
-                        if (job->refine) return untangle(*job->queue_in_use, job->problem, job->params, job->refining);
+                        if (job->refine)
+                            return untangle(*job->queue_in_use, job->problem, job->params, job->limits, {});
                         return impl::refined_untangling<Element>{
-                            untangle(*job->queue_in_use, job->problem, job->params), {job->problem}};
+                            untangle(*job->queue_in_use, job->problem, job->params, job->limits), {job->problem}};
                     }),
                 [job](impl::refined_untangling<Element> made) -> nb::object
                 {

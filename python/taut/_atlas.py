@@ -33,7 +33,7 @@ _TUNING = ("least_fill", "cut_rounds", "unite_rounds")
 
 
 #: Names of the library that are others here.
-_NAMES = {"hide": "hide_seams", "weights": "seam_weights", "initial": "uv", "corner_uv": "uv"}
+_NAMES = {"weights": "seam_weights", "initial": "uv", "corner_uv": "uv"}
 
 
 @overload
@@ -113,7 +113,7 @@ def atlas(
         coarse in the mean. Instead of the two bounds before; see `report["stretch_l2"]`.
     resolution, padding, tiles, rotate, densities
         Texels along a tile; least distance of charts in texels; how many tiles; whether charts are turned; a factor of
-        lengths for each chart.
+        the lengths of its chart for each triangle.
     aspect, texels_per_unit, max_resolution, align
         Height of a tile by its width, a power of two (`uv` fill the unit square all the same); a given density, with as
         many of `tiles` as that takes, or with the resolution doubled up to a bound; side of the blocks of texels that
@@ -194,7 +194,7 @@ def atlas(
     if pinned is not None:
         options["pinned"] = _arrays.numbers("pinned", pinned, m)
     if densities is not None:
-        options["densities"] = _arrays.numbers("densities", densities)
+        options["densities"] = _arrays.numbers("densities", densities, m)
     return call(native().atlas, points, faces, options, progress=progress, make=Atlas.of, names=_NAMES)
 
 

@@ -111,6 +111,17 @@ def test_pages_have_given_density_shape_and_blocks(torus):
     assert packed.charts == made.charts
 
 
+def test_densities_are_factors_of_lengths(torus):
+    V, F = torus
+    n = len(F)
+    both = np.vstack([V, V + [10, 0, 0]]), np.vstack([F, F + len(V)])
+    made = taut.atlas(*both, densities=[1] * n + [2] * n)
+    area = np.abs(signed_areas(made.corner_uv.reshape(-1, 2), np.arange(6 * n).reshape(-1, 3)))
+    assert np.isclose(area[n:].sum(), 4 * area[:n].sum(), rtol=0.05)
+    with pytest.raises(taut.ParameterError, match="densities"):
+        taut.atlas(*both, densities=[1, 2])
+
+
 def test_copies_lie_on_each_other(torus):
     V, F = torus
     both = taut.atlas(np.vstack([V, V + [9, 0, 0]]), np.vstack([F, F + len(V)]), stack=True)

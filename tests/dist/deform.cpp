@@ -33,11 +33,11 @@ session_result<tetrahedron> serial(const mesh<tetrahedron>& m, const Where& wher
 
 template <class Where>
 dist::result<tetrahedron> over_all(const mesh<tetrahedron>& m, const Where& where,
-                                   dist::deform_params<tetrahedron> how = {})
+                                   dist::deform_params<tetrahedron> how = {}, const run_limits& limits = {})
 {
     how.constraints = ends(MPI_COMM_WORLD, m, where);
     how.queue = common_queue();
-    return dist::deform(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), how);
+    return dist::deform(MPI_COMM_WORLD, dealt(MPI_COMM_WORLD, m), how, limits);
 }
 
 /// Whether all pins of a piece are where they should be, bit for bit.
@@ -272,17 +272,17 @@ TEST_CASE("dist deform: a limit of one process ends the run of all, with a certi
 {
     using namespace std::chrono_literals;
     const auto m = bar(3);
-    dist::deform_params<tetrahedron> how;
-    if (rank_of() == size_of() - 1) how.limits.time_limit = 0s;
-    const auto none = over_all(m, stretched, how);
+    run_limits limits;
+    if (rank_of() == size_of() - 1) limits.time_limit = 0s;
+    const auto none = over_all(m, stretched, {}, limits);
     CHECK(none.report.outcome == outcome::stopped);
     CHECK(none.report.stopped);
     CHECK(none.report.flips);
     CHECK(!none.x.empty());
 
-    how.limits = {};
-    if (rank_of() == size_of() - 1) how.limits.observer = [](const progress& p) { return p.iteration < 2; };
-    const auto some = over_all(m, stretched, how);
+    limits = {};
+    if (rank_of() == size_of() - 1) limits.observer = [](const progress& p) { return p.iteration < 2; };
+    const auto some = over_all(m, stretched, {}, limits);
     CHECK(some.report.stopped);
     CHECK(some.report.flips);
     CHECK(some.report.steps <= 3);

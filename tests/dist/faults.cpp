@@ -63,10 +63,10 @@ void expect(const F& f, const std::string& word, int failing = last_rank())
     if constexpr (!std::is_same_v<Error, std::bad_alloc>) CHECK_MESSAGE(c.what.find(word) != std::string::npos, c.what);
 }
 
-void deform(const piece& p, dist::deform_params<tetrahedron> how = {})
+void deform(const piece& p, dist::deform_params<tetrahedron> how = {}, const run_limits& limits = {})
 {
     how.queue = common_queue();
-    dist::deform<tetrahedron>(MPI_COMM_WORLD, p, how);
+    dist::deform<tetrahedron>(MPI_COMM_WORLD, p, how, limits);
 }
 
 } // namespace
@@ -155,15 +155,16 @@ TEST_CASE("dist faults: what an observer of one process throws in the middle of 
 {
     const auto m = bar(2);
     dist::deform_params<tetrahedron> how{.constraints = ends(MPI_COMM_WORLD, m, stretched)};
+    run_limits limits;
     if (rank_of() == last_rank())
-        how.limits.observer = [](const progress& p)
+        limits.observer = [](const progress& p)
         {
             if (p.iteration >= 1) throw error("enough of it");
             return true;
         };
-    expect<error>([&] { deform(dealt(MPI_COMM_WORLD, m), how); }, "enough of it");
-    if (rank_of() == last_rank()) how.limits.observer = [](const progress&) -> bool { throw std::bad_alloc(); };
-    const auto c = attempt<std::bad_alloc>([&] { deform(dealt(MPI_COMM_WORLD, m), how); });
+    expect<error>([&] { deform(dealt(MPI_COMM_WORLD, m), how, limits); }, "enough of it");
+    if (rank_of() == last_rank()) limits.observer = [](const progress&) -> bool { throw std::bad_alloc(); };
+    const auto c = attempt<std::bad_alloc>([&] { deform(dealt(MPI_COMM_WORLD, m), how, limits); });
     if (rank_of() != last_rank()) CHECK(c.what.find("not enough memory on process") != std::string::npos);
 }
 

@@ -52,7 +52,7 @@ void examine(std::string_view bytes, const mesh<Element>& m)
             fuzz::require(p.weight >= 0 && p.held != 0, "a pin holds something");
         }
         constraints<Element> c(m);
-        add_pins(c, pins); // a file that is read has no contradictions but springs on pinned vertices
+        c.add(pins); // a file that is read has no contradictions but springs on pinned vertices
     }
     catch (const error&)
     {

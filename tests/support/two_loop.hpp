@@ -156,9 +156,10 @@ report minimize_by_two_loops(Objective& f, typename Objective::point& x, const p
     if constexpr (has_precondition<Objective>)
         h0 = [&f](const vector_of<Objective>& v, vector_of<Objective>& out) { f.precondition(v, out); };
     const bool cg = p.method == method::conjugate_gradient;
-    two_loop_inverse_hessian<space_of<Objective>> h(f.space(), cg ? p.conjugate_gradient.memory : p.lbfgs.memory, h0);
-    const observer none;
-    if (cg) return descent(f, x, h, conjugate_rule(p.conjugate_gradient), p.common(), none).run();
+    two_loop_inverse_hessian<space_of<Objective>> h(
+        f.space(), cg ? p.tuning.conjugate_gradient.memory : p.tuning.lbfgs.memory, h0);
+    const run_limits none;
+    if (cg) return descent(f, x, h, conjugate_rule(p.tuning.conjugate_gradient), p.common(), none).run();
     return descent(f, x, h, no_momentum{}, p.common(), none).run();
 }
 

@@ -33,7 +33,7 @@ void check_typed(const untangle_problem<Element>& problem, const untangle_result
         certify<Element::dimension>(problem.rest.cells(), std::span<const vec<Element::dimension>>(result.map));
     CHECK(flips.flipped == result.flips.flipped);
     CHECK(flips.branched == result.flips.branched);
-    CHECK((result.outcome == untangle_outcome::injective) == static_cast<bool>(flips));
+    CHECK((result.outcome == outcome::valid) == static_cast<bool>(flips));
     CHECK(static_cast<bool>(result) == result.reason.empty());
     if (!result) CHECK_FALSE(result.ids.empty());
     if (result) CHECK(result.least_relative_det > 0);

@@ -157,14 +157,15 @@ private:
         const auto seams = seams_of(sources_, *joined_, f, options_);
         params.charts.seams = seams;
         const auto weights = seam_weights_of(sources_, *joined_, f, options_);
-        params.wishes.weights = weights;
+        params.charts.weights = weights;
         const auto diagonals = diagonals_of(sources_, f);
         params.charts.together = diagonals;
         if (options_.keep_charts()) params.initial = texcoords_of(sources_);
         if (options_.by_material)
         {
-            params.groups = tiles_by_material(*sources_[0]);
-            params.packing.tiles = 1 + *std::max_element(params.groups.begin(), params.groups.end());
+            auto& groups = params.packing.groups;
+            groups = tiles_by_material(*sources_[0]);
+            params.packing.tiles = 1 + *std::max_element(groups.begin(), groups.end());
         }
         if (!options_.pinned.empty())
         {
@@ -173,7 +174,7 @@ private:
         }
         // The certificate is of what the files will have.
         if (params.origin.y < 0) store_in_gltf(params);
-        params.limits.observer = [this](const taut::progress& p)
+        const auto ask = [this](const taut::progress& p)
         {
             keep(p.usable);
             command_.tell({.phase = p.stage, .step = p.iteration, .energy = p.value});
@@ -184,10 +185,10 @@ private:
         report_.queue = command_.clock.timed([&] { q = open_queue(options_.device, false); });
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
-        params.limits.time_limit = command_.clock.left(options_.time_limit);
+        const run_limits limits{command_.clock.left(options_.time_limit), ask};
         try
         {
-            atlas_ = make_atlas(*q, m, params);
+            atlas_ = make_atlas(*q, m, params, limits);
         }
         catch (const symmetry_error& e)
         {

@@ -367,11 +367,10 @@ atlas_params to_params(const atlas_options& o)
     // square of the stretch, is E - 2 at most.
     if (o.max_stretch) params.charts.mean_distortion = 2 + 2 * *o.max_stretch * *o.max_stretch;
     params.charts.max_distortion = std::max(params.charts.max_distortion, params.charts.mean_distortion);
-    params.keep_charts = o.keep_charts();
-    params.wishes.hide = o.hide;
-    params.wishes.crease_angle = o.crease_angle;
+    if (o.keep_charts()) params.prefer = o.charts == chart_use::pack ? chart_preference::laid : chart_preference::kept;
+    params.hide_seams = o.hide;
+    params.crease_angle = o.crease_angle;
     params.stack = o.stack;
-    params.relax = o.charts != chart_use::pack;
     params.symmetric = o.symmetric;
     const auto [width, height] = *page_of(o.size);
     params.packing.padding = padding_of(o);

@@ -49,7 +49,7 @@ void read_constraints(check_report& report, const std::string& path, constraints
     for (const auto& pin : io::read_pins<Element::dimension>(path, vertices)) try
         {
             if constexpr (Element::dimension == 2) require_undivided({&pin, 1}, divided);
-            add_pins(pins, {pin});
+            pins.add(std::vector{pin});
         }
         catch (const constraint_error& e)
         {

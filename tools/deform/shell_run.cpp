@@ -64,7 +64,7 @@ exit_code shell_run::operator()()
     const auto rest = options_.rest.empty() ? file.surface : shape_at_rest(file.surface);
     const thin_shell shell(rest);
     auto pins = taut::constraints(shell.hinges());
-    if (!options_.pins.empty()) add_pins(pins, io::read_pins<3>(options_.pins, file.surface.vertex_count()));
+    if (!options_.pins.empty()) pins.add(io::read_pins<3>(options_.pins, file.surface.vertex_count()));
     pins.require_used(impl::unused_vertices(rest.points().size(), rest.cells()));
     vertices_ = file.surface.points().size();
     triangles_ = file.surface.cells().size();
@@ -78,7 +78,7 @@ exit_code shell_run::operator()()
     std::optional<session_result<hinge>> found;
     auto wanted = params(shell, pins);
     if (!options_.rest.empty()) wanted.initial = file.surface.points();
-    solve_ = command_.clock.timed([&] { found = deform(q, shell, wanted); });
+    solve_ = command_.clock.timed([&] { found = deform(q, shell, wanted, limits()); });
     take(*found, rest, pins);
     if (points_.empty()) refuse();
     run_.notes.insert(run_.notes.begin(), file.notes.begin(), file.notes.end());
@@ -100,16 +100,20 @@ shell_params shell_run::params(const thin_shell& shell, const constraints<hinge>
 {
     thickness_ = options_.thickness.value_or(shell.mean_edge());
     shell_params p{.constraints = pins, .thickness = thickness_};
-    p.limits.observer = [this](const taut::progress& at)
-    {
-        keep(at.usable);
-        if (at.iterate)
-            command_.tell({.phase = "deform", .step = at.iteration, .energy = at.value, .gradient = at.gradient});
-        return !interrupted();
-    };
     if (options_.tolerance) p.solve.stopping.gradient_tolerance = *options_.tolerance;
-    p.limits.time_limit = command_.clock.left(options_.time_limit);
     return p;
+}
+
+run_limits shell_run::limits()
+{
+    return {command_.clock.left(options_.time_limit), [this](const taut::progress& at)
+            {
+                keep(at.usable);
+                if (at.iterate)
+                    command_.tell(
+                        {.phase = "deform", .step = at.iteration, .energy = at.value, .gradient = at.gradient});
+                return !interrupted();
+            }};
 }
 
 /// The certificate of exactly what is written, and the pins bit for bit, not taken from the solver's word.

@@ -35,6 +35,7 @@ private:
     };
 
     shell_params params(const thin_shell& shell, const constraints<hinge>& pins);
+    run_limits limits();
     void take(const session_result<hinge>& found, const mesh<triangle>& surface, const constraints<hinge>& pins);
     [[noreturn]] void refuse() const;
     /// Reads the mesh of --rest. Throws unsuitable_input for another mesh.

@@ -194,7 +194,7 @@ private:
         held_ = taut::constraints<Element>(mesh);
         held_by_file held(file_);
         for (const auto& [v, x] : targets.all()) held_.pin(v, held(v, vec<D>(x)));
-        if (!shape_.pins.empty()) add_pins(held_, held(io::read_pins<D>(shape_.pins, mesh.vertex_count())));
+        if (!shape_.pins.empty()) held_.add(held(io::read_pins<D>(shape_.pins, mesh.vertex_count())));
         if (auto note = held.note(); !note.empty()) told.push_back(std::move(note));
         report.pins = held_.pins().size();
         for (const auto& [v, pin] : held_.pins())

@@ -90,8 +90,8 @@ public:
         const auto& surface = source_->surface;
         if (options_.region.empty()) require_vertex("--at", options_.at, surface, options_.source);
         require_vertex("--onto", options_.onto, target_->surface, options_.target);
-        feature part = make_feature(options_.region.empty() ? geodesic_disk(surface, options_.at, options_.radius)
-                                                            : region_of_faces(surface, read_faces(options_.region)));
+        feature part = feature(options_.region.empty() ? geodesic_disk(surface, options_.at, options_.radius)
+                                                       : region_of_faces(surface, read_faces(options_.region)));
         region_ = part.region.vertices;
         std::optional<queue> q;
         device_seconds_ = command_.clock.timed([&] { q = open_queue(options_.device, false); });
@@ -141,10 +141,7 @@ private:
     {
         const auto uv = parameterize_feature(q, *paste_);
         if (!uv) throw no_valid_map("the feature has no map with its rim where it meets the target: " + uv.reason());
-        impl::feature_map_params params;
-        params.resolution = options_.texels.value_or(params.resolution);
-        params.margin = std::min(params.margin, params.resolution / 4);
-        map_ = make_feature_map(q, paste_->part(), uv.uv, params);
+        map_ = make_feature_map(q, paste_->part(), uv.uv, options_.texels.value_or(512));
         if (options_.triangles == 0) return;
         const auto before = paste_->part().region.surface;
         paste_->refill(tessellate(q, paste_->part(), *map_, uv.uv, options_.triangles));

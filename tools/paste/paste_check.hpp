@@ -19,11 +19,11 @@ namespace taut::tools
 /// manifold itself.
 inline impl::seam_quality require_sound(const paste& p)
 {
-    const auto before = measure_seam(p.target(), 0, 0);
+    const auto before = impl::measure_seam(p.target(), 0, 0);
     if (!before.manifold)
         throw unsuitable_input("the target is not manifold: at a vertex its triangles do not form one fan; `taut "
                                "check` lists such vertices, `taut atlas --repair` parts them");
-    const auto quality = measure_seam(p.surface(), p.first_gap(), p.first_feature());
+    const auto quality = p.measure_seam();
     if (!quality.manifold || quality.boundary_edges != before.boundary_edges)
         throw no_valid_map("the pasted surface is not manifold, or has another boundary than the target; choose "
                            "another vertex, radius or scale");

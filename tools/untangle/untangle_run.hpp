@@ -152,14 +152,6 @@ private:
         report_.device = q->device().name();
         report_.device_label = (std::ostringstream() << q->device()).str();
 
-        untangle_params params;
-        params.limits.observer = [this](const taut::progress& p)
-        {
-            if (p.iterate) command_.tell({.phase = "untangle", .step = p.iteration, .inverted = p.value});
-            return !interrupted();
-        };
-        // The limit is one for the whole run: what reading took is gone.
-        params.limits.time_limit = command_.clock.left(options_.time_limit);
         command_.tell("untangle");
         keep(true); // the initial map, at least
         untangle_result<Element> result;
@@ -167,30 +159,39 @@ private:
             [&]
             {
                 if (!options_.refine)
-                    result = untangle(*q, *problem_, params);
+                    result = untangle(*q, *problem_, {}, limits());
                 else
                 {
-                    auto found = untangle(*q, *problem_, params, {});
+                    auto found = untangle(*q, *problem_, {}, limits(), {});
                     result = std::move(found.result);
-                    if (result.outcome != untangle_outcome::infeasible) go_on_with(std::move(found.refined));
+                    if (result.outcome != outcome::infeasible) go_on_with(std::move(found.refined));
                 }
             });
-        if (result.outcome == untangle_outcome::infeasible) return refuse(result.reason, std::move(result.ids));
-        if (input_ && result) mend(*q, result, params);
+        if (result.outcome == outcome::infeasible) return refuse(result.reason, std::move(result.ids));
+        if (input_ && result) mend(*q, result);
         take(std::move(result));
     }
 
+    /// Limits of the rest of the run: what reading took is gone.
+    run_limits limits()
+    {
+        return {command_.clock.left(options_.time_limit), [this](const taut::progress& p)
+                {
+                    if (p.iterate) command_.tell({.phase = "untangle", .step = p.iteration, .inverted = p.value});
+                    return !interrupted();
+                }};
+    }
+
     /// Cells that came out negative inside are untangled once more.
-    void mend(queue& q, untangle_result<Element>& result, untangle_params params)
+    void mend(queue& q, untangle_result<Element>& result)
     {
         const auto again = [&](const volume_case<Element>& edged, const std::vector<vec<D>>& from)
         {
-            params.limits.time_limit = command_.clock.left(options_.time_limit);
             untangle_report told; // it was before
             auto problem = problem_of(edged, options_, told);
             problem.initial = from;
             problem.held = problem_->held;
-            auto found = untangle(q, problem, params);
+            auto found = untangle(q, problem, {}, limits());
             result.stages.insert(result.stages.end(), found.stages.begin(), found.stages.end());
             return found ? std::move(found.map) : std::vector<vec<D>>();
         };

@@ -105,7 +105,7 @@ private:
         const auto pins = io::read_pins<2>(options_.pins, file_->surface.vertex_count());
         if (cut_) require_undivided(pins, divided_vertices(*cut_));
         pins_ = constraints<triangle>(surface());
-        add_pins(pins_, pins);
+        pins_.add(pins);
         report_.pins = pins_.pins().size();
         report_.springs = pins_.springs().size();
         if (pins.empty()) report_.notes.push_back(options_.pins + ": no pins in it; nothing is held");
@@ -117,7 +117,7 @@ private:
         params.constraints = pins_;
         params.polygons = file_->faces.of_triangles();
         if (options_.start == start_kind::uv) params.initial = start_from_file();
-        params.limits.observer = [this](const taut::progress& p)
+        const auto ask = [this](const taut::progress& p)
         {
             keep(p.usable);
             if (p.iterate)
@@ -136,9 +136,9 @@ private:
         report_.device_label = (std::ostringstream() << q->device()).str();
 
         // The limit is one for the whole run: what reading took is gone.
-        params.limits.time_limit = command_.clock.left(options_.time_limit);
+        const run_limits limits{command_.clock.left(options_.time_limit), ask};
         command_.tell("start");
-        auto result = taut::parameterize(*q, surface(), params);
+        auto result = taut::parameterize(*q, surface(), params, limits);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
         keep(!result.uv.empty());

@@ -161,17 +161,16 @@ parameterize_params to_params(const unwrap_options& o)
         break;
     }
     p.weights = o.weights;
-    p.boundary = o.boundary == boundary_kind::free ? boundary_mode::free : boundary_mode::fixed;
-    p.barycentric.boundary.shape =
-        o.boundary == boundary_kind::square ? boundary_shape::square : boundary_shape::circle;
-    p.barycentric.boundary.spacing = o.spacing;
-    p.barycentric.weights =
-        o.start == start_kind::tutte ? barycentric_weights::uniform : barycentric_weights::mean_value;
-    if (o.start == start_kind::tutte || o.start == start_kind::mean_value) p.barycentric.stretch_rounds = 0;
-    p.start = o.start == start_kind::automatic   ? start_method::automatic
-              : o.start == start_kind::coarse    ? start_method::coarse
-              : o.start == start_kind::conformal ? start_method::conformal
-                                                 : start_method::barycentric;
+    p.boundary = o.boundary == boundary_kind::free     ? boundary_mode::free
+                 : o.boundary == boundary_kind::square ? boundary_mode::square
+                                                       : boundary_mode::fixed;
+    p.spacing = o.spacing;
+    p.start = o.start == start_kind::automatic    ? start_method::automatic
+              : o.start == start_kind::coarse     ? start_method::coarse
+              : o.start == start_kind::conformal  ? start_method::conformal
+              : o.start == start_kind::tutte      ? start_method::tutte
+              : o.start == start_kind::mean_value ? start_method::mean_value
+                                                  : start_method::barycentric;
     p.placement = o.placement;
     p.holes = o.holes;
     p.no_overlap = o.no_overlap;
@@ -183,7 +182,6 @@ parameterize_params to_params(const unwrap_options& o)
                                                                    : solve::method::lbfgs;
     if (o.tolerance) p.solve.stopping = {.gradient_tolerance = *o.tolerance}; // no less strict than that
     p.solve.stopping.max_iterations = o.iterations;
-    p.limits.time_limit = std::chrono::duration<double>(o.time_limit);
     return p;
 }
 

@@ -51,8 +51,7 @@ public:
     paste_subject(queue& q, const source& from)
         : queue_(q),
           name_(std::filesystem::path(from.path).filename().string()),
-          feature_(
-              make_feature(geodesic_disk(io::read_surface(from.feature.source), from.feature.at, from.feature.radius))),
+          feature_(feature(geodesic_disk(io::read_surface(from.feature.source), from.feature.at, from.feature.radius))),
           target_(std::make_shared<const mesh<triangle>>(io::read_surface(from.path, from.format))),
           triangles_(from.feature.triangles),
           pose_{.scale = from.feature.scale}
@@ -199,7 +198,7 @@ private:
     {
         const auto uv = parameterize_feature(queue_, there);
         if (!uv) throw error("the feature has no map with its rim where it meets the target: " + uv.reason());
-        const auto map = make_feature_map(queue_, there.part(), uv.uv, {});
+        const auto map = make_feature_map(queue_, there.part(), uv.uv);
         there.refill(tessellate(queue_, there.part(), map, uv.uv, triangles_));
     }
 

@@ -53,7 +53,7 @@ template <class Element>
 taut::constraints<Element> pinned(const mesh<Element>& m, const std::vector<io::pin<Element::dimension>>& pins)
 {
     taut::constraints<Element> c(m);
-    add_pins(c, pins);
+    c.add(pins);
     return c;
 }
 
@@ -91,9 +91,8 @@ public:
           session_subject<triangle>(q, surface(),
                                     [&](observer ask)
                                     {
-                                        auto p = params_of(*this);
-                                        p.limits.observer = std::move(ask);
-                                        return std::make_unique<session<triangle>>(q, surface(), p);
+                                        return std::make_unique<session<triangle>>(
+                                            q, surface(), params_of(*this), run_limits{.observer = std::move(ask)});
                                     }),
           name_(base_name(from.path)),
           faces_(as_corners(surface().cells()))
@@ -194,9 +193,8 @@ public:
           base(q, input.simplices(),
                [&](observer ask)
                {
-                   auto p = opened::params();
-                   p.limits.observer = std::move(ask);
-                   return std::make_unique<session<Element>>(q, input.simplices(), p);
+                   return std::make_unique<session<Element>>(q, input.simplices(), opened::params(),
+                                                             run_limits{.observer = std::move(ask)});
                }),
           name_(base_name(from.path)),
           faces_(opened::faces())
@@ -263,14 +261,13 @@ class shell_subject final : private opened_shell, public session_subject<hinge>
 public:
     shell_subject(queue& q, const source& from)
         : opened_shell(from),
-          session_subject<hinge>(
-              q, shell.hinges(),
-              [&](observer ask)
-              {
-                  return std::make_unique<session<hinge>>(
-                      q, shell,
-                      shell_params{.constraints = opened_shell::constraints, .limits = {.observer = std::move(ask)}});
-              }),
+          session_subject<hinge>(q, shell.hinges(),
+                                 [&](observer ask)
+                                 {
+                                     return std::make_unique<session<hinge>>(
+                                         q, shell, shell_params{.constraints = opened_shell::constraints},
+                                         run_limits{.observer = std::move(ask)});
+                                 }),
           name_(base_name(from.path)),
           faces_(as_corners(shell.surface().cells()))
     {

@@ -102,7 +102,7 @@ private:
         pins_ = constraints<Element>(mesh);
         held_by_file held(input_->file());
         for (const auto& [v, x] : targets.all()) pins_.pin(v, held(v, vec<D>(x)));
-        if (!options_.pins.empty()) add_pins(pins_, held(io::read_pins<D>(options_.pins, mesh.vertex_count())));
+        if (!options_.pins.empty()) pins_.add(held(io::read_pins<D>(options_.pins, mesh.vertex_count())));
         report_.pin_rounding = held.largest();
         add_note(held.note());
         report_.pins = pins_.pins().size();
@@ -125,19 +125,16 @@ private:
         if (kept > 0) add_note(kept_interfaces_note(kept));
     }
 
-    template <class Params>
-    Params limited(Params params)
+    run_limits limits()
     {
-        params.limits.observer = [this](const taut::progress& p)
-        {
-            keep(kept_ || p.usable);
-            if (p.iterate)
-                command_.tell({.phase = phase(), .step = p.iteration, .energy = p.value, .gradient = p.gradient});
-            return !interrupted();
-        };
-        if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
-        params.limits.time_limit = command_.clock.left(options_.time_limit);
-        return params;
+        return {command_.clock.left(options_.time_limit), [this](const taut::progress& p)
+                {
+                    keep(kept_ || p.usable);
+                    if (p.iterate)
+                        command_.tell(
+                            {.phase = phase(), .step = p.iteration, .energy = p.value, .gradient = p.gradient});
+                    return !interrupted();
+                }};
     }
 
     /// With these simplices of the cells, from a shape; the shape that is found, empty if there is none.
@@ -146,26 +143,28 @@ private:
         if (options_.smoothing)
         {
             const mesh<Element> m(input_->in_file(from), parts.simplices().cells());
-            auto r = smooth(q, m,
-                            limited(smooth_params<Element>{.boundary = options_.boundary,
-                                                           .targets = parts.parts().regular,
-                                                           .owners = parts.owners(),
-                                                           .worst_exponent = options_.worst_exponent,
-                                                           .fixed = fixed_,
-                                                           .kept = kept_facets_}));
+            smooth_params<Element> params{.boundary = options_.boundary,
+                                          .targets = parts.parts().regular,
+                                          .owners = parts.owners(),
+                                          .worst_exponent = options_.worst_exponent,
+                                          .fixed = fixed_,
+                                          .kept = kept_facets_};
+            if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
+            auto r = smooth(q, m, params, limits());
             return {std::move(r.x), std::move(r.report)};
         }
         deform_params<Element> params{
             .energy = energy_of(options_.energy), .constraints = pins_, .owners = parts.owners(), .initial = from};
         if (parts.parts().overlapping) params.data.weights = parts.parts().weights;
-        if (options_.refine) return deform_split(q, parts, limited(std::move(params)));
-        return deform(q, parts.simplices(), limited(std::move(params)));
+        if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
+        if (options_.refine) return deform_split(q, parts, params);
+        return deform(q, parts.simplices(), params, limits());
     }
 
     session_result<Element> deform_split(queue& q, const volume_case<Element>& parts,
                                          const deform_params<Element>& params)
     {
-        auto found = deform(q, parts.simplices(), params, {});
+        auto found = deform(q, parts.simplices(), params, limits(), {});
         parts_ = std::move(found.cells);
         if (!found.how.empty())
         {

@@ -27,7 +27,7 @@ untangle_problem<Element> problem_of(const volume_case<Element>& input, const un
     for (const auto& name : options.fixed) groups.fix(name);
     for (const auto& [v, place] : groups.all()) pins.pin(v, vec<Element::dimension>(place));
     held_by_file held(input.file());
-    if (!options.pins.empty()) add_pins(pins, held(io::read_pins<Element::dimension>(options.pins, m.vertex_count())));
+    if (!options.pins.empty()) pins.add(held(io::read_pins<Element::dimension>(options.pins, m.vertex_count())));
     report.pin_rounding = held.largest();
     if (!input.file().turned.empty()) report.notes.push_back(turned_note(input.file()));
     if (auto note = held.note(); !note.empty()) report.notes.push_back(std::move(note));

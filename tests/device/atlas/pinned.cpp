@@ -47,7 +47,7 @@ TEST_CASE("make_atlas: beside pinned charts, tiles and faults are of the triangl
     queue q;
     const squares s(3);
     const mesh<triangle> m(s.points, s.cells);
-    atlas_params params{.initial = s.uv, .pinned = {1, 1, 0, 0, 0, 0}, .groups = {0, 0, 1, 1, 0, 0}};
+    atlas_params params{.initial = s.uv, .pinned = {1, 1, 0, 0, 0, 0}, .packing = {.groups = {0, 0, 1, 1, 0, 0}}};
     params.packing.tiles = 2;
     const atlas made = make_atlas(q, m, params);
     REQUIRE(made.report.reason == "");
@@ -56,12 +56,11 @@ TEST_CASE("make_atlas: beside pinned charts, tiles and faults are of the triangl
         for (std::size_t k = 0; k < 3; ++k)
         {
             const vec2 x = made.uv[static_cast<std::size_t>(corners[c][k])];
-            CHECK((x.x > 1) == (params.groups[c] == 1));
+            CHECK((x.x > 1) == (params.packing.groups[c] == 1));
             if (params.pinned[c]) CHECK(x == s.uv[c][k]);
         }
 
-    params.keep_charts = true;
-    params.relax = false;
+    params.prefer = chart_preference::laid;
     const atlas folded = make_atlas(q, m, params);
     CHECK(folded.report.reason.find("the chart of triangle 4 is folded") == 0);
     CHECK(folded.report.reason_triangles == std::vector<taut::idx>{4});

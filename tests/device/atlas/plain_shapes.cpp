@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Shapes of few flat faces: charts without distortion are at hand, and the bound of the mean holds.
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -194,4 +196,34 @@ TEST_CASE("make_atlas: copies that lie on each other have the least distorted of
     REQUIRE(bool(a));
     CHECK(a.report.stacked > 0);
     CHECK(a.report.distortion <= 4.1);
+}
+
+TEST_CASE("make_atlas: densities of triangles are factors of the lengths of their charts")
+{
+    queue q;
+    std::vector<vec3> points;
+    std::vector<std::array<idx, 3>> cells;
+    for (const int k : {0, 1})
+    {
+        const auto one = cube(0);
+        for (auto t : one.cells()) cells.push_back({t[0] + 8 * k, t[1] + 8 * k, t[2] + 8 * k});
+        for (const vec3& p : one.points()) points.push_back(p + vec3(3 * k, 0, 0));
+    }
+    const mesh<triangle> m(points, cells);
+    atlas_params params;
+    for (std::size_t c = 0; c < cells.size(); ++c) params.packing.densities.push_back(c < 12 ? 1 : 2);
+    const atlas made = make_atlas(q, m, params);
+    REQUIRE(bool(made));
+    const auto corners = made.corners();
+    double area[2] = {0, 0};
+    for (std::size_t c = 0; c < corners.size(); ++c)
+    {
+        const auto at = [&](std::size_t k) { return made.uv[static_cast<std::size_t>(corners[c][k])]; };
+        area[c / 12] += glm::determinant(mat2(at(1) - at(0), at(2) - at(0)));
+    }
+    CHECK(area[1] == doctest::Approx(4 * area[0]).epsilon(0.01)); // charts are not quite isometric
+
+    params.packing.densities.pop_back();
+    CHECK_THROWS_AS(make_atlas(q, m, params), parameter_error);
+    CHECK_THROWS_AS(make_atlas(q, m, {.packing = {.groups = {0}}}), parameter_error);
 }

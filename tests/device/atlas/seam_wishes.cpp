@@ -65,8 +65,8 @@ TEST_CASE("seam wishes: hidden seams are seen less, within the bound, and the re
             return sum / length_of(m, made);
         };
         const auto plain = make_atlas(q, m, {.prefer = prefer});
-        const auto mild = make_atlas(q, m, {.prefer = prefer, .wishes = {.hide = 0.5}});
-        const auto strong = make_atlas(q, m, {.prefer = prefer, .wishes = {.hide = 1}});
+        const auto mild = make_atlas(q, m, {.prefer = prefer, .hide_seams = 0.5});
+        const auto strong = make_atlas(q, m, {.prefer = prefer, .hide_seams = 1});
         REQUIRE(plain);
         REQUIRE(mild);
         REQUIRE(strong);
@@ -98,15 +98,15 @@ TEST_CASE("seam wishes: what is painted dear has fewer seams")
                   [&](idx, idx a, idx, double length) { sum += m.points()[std::size_t(a)].z > 0 ? length : 0; });
         return sum;
     };
-    const auto plain = make_atlas(q, m), painted = make_atlas(q, m, {.wishes = {.weights = weights}});
+    const auto plain = make_atlas(q, m), painted = make_atlas(q, m, {.charts = {.weights = weights}});
     REQUIRE(painted);
     CHECK(above(painted) < 0.8 * above(plain));
-    const auto again = make_atlas(q, m, {.wishes = {.weights = weights}});
+    const auto again = make_atlas(q, m, {.charts = {.weights = weights}});
     CHECK(again.uv == painted.uv);
     weights.pop_back();
-    CHECK_THROWS_AS(make_atlas(q, m, {.wishes = {.weights = weights}}), parameter_error);
-    CHECK_THROWS_AS(make_atlas(q, m, {.wishes = {.hide = 2}}), parameter_error);
-    CHECK_THROWS_AS(make_atlas(q, m, {.wishes = {.crease_angle = -1}}), parameter_error);
+    CHECK_THROWS_AS(make_atlas(q, m, {.charts = {.weights = weights}}), parameter_error);
+    CHECK_THROWS_AS(make_atlas(q, m, {.hide_seams = 2}), parameter_error);
+    CHECK_THROWS_AS(make_atlas(q, m, {.crease_angle = -1}), parameter_error);
 }
 
 TEST_CASE("seam wishes: seams are along edges that are bent")
@@ -128,7 +128,7 @@ TEST_CASE("seam wishes: seams are along edges that are bent")
                   });
         return bent / length_of(m, made);
     };
-    const auto creased = make_atlas(q, m, {.wishes = {.crease_angle = 40}});
+    const auto creased = make_atlas(q, m, {.crease_angle = 40});
     REQUIRE(creased);
     CHECK(on_edges(creased) > 0.95);
 }

@@ -23,8 +23,7 @@ namespace
 struct mapped_mushroom
 {
     queue q;
-    paste pasted{
-        q, test::sphere(4), make_feature(geodesic_disk(test::mushroom(24), 0, 2.2)), 4, {.pose = {.scale = 0.4}}};
+    paste pasted{q, test::sphere(4), feature(geodesic_disk(test::mushroom(24), 0, 2.2)), 4, {.pose = {.scale = 0.4}}};
     map_result map = parameterize_feature(q, pasted);
 };
 
@@ -90,12 +89,12 @@ TEST_CASE("feature map: the device draws what the host says, without holes or bl
     mapped_mushroom m;
     REQUIRE(m.map);
     const auto& part = m.pasted.part();
-    const auto map = make_feature_map(m.q, part, m.map.uv, {.resolution = 128});
+    const auto map = make_feature_map(m.q, part, m.map.uv, 128);
     CHECK(std::max(map.width, map.height) <= 130);
     CHECK(covered_as_on_host(map, part, m.map.uv) > 5000);
     CHECK(map.round_trip_rms < map.footprint);
     CHECK(map.round_trip < 8 * map.footprint);
-    const auto finer = make_feature_map(m.q, part, m.map.uv, {.resolution = 512});
+    const auto finer = make_feature_map(m.q, part, m.map.uv, 512);
     CHECK(finer.round_trip_rms < 0.5 * map.round_trip_rms);
 
     // Sampling: host and device, also beyond the rim, where the map is continued.
@@ -106,16 +105,16 @@ TEST_CASE("feature map: the device draws what the host says, without holes or bl
     for (std::size_t n = 0; n < points.size(); ++n) CHECK(glm::distance(sampled[n], map(points[n])) < 1e-4);
 
     CHECK_THROWS_AS(make_feature_map(m.q, part, points), parameter_error);
-    CHECK_THROWS_AS(make_feature_map(m.q, part, m.map.uv, {.resolution = 4}), parameter_error);
+    CHECK_THROWS_AS(make_feature_map(m.q, part, m.map.uv, 4), parameter_error);
 }
 
 TEST_CASE("feature map: of a part that is seen from above, drawn and sampled")
 {
     queue q;
-    const auto part = make_feature(geodesic_disk(test::bumpy(8, 0.3), 40, 0.4));
+    const feature part(geodesic_disk(test::bumpy(8, 0.3), 40, 0.4));
     std::vector<vec2> uv;
     for (const vec3& p : part.region.surface.points()) uv.emplace_back(p.x, p.y);
-    const auto map = make_feature_map(q, part, uv, {.resolution = 24});
+    const auto map = make_feature_map(q, part, uv, 24);
     CHECK(covered_as_on_host(map, part, uv) > 100);
     const auto sampled = sample(q, map, uv);
     for (std::size_t n = 0; n < uv.size(); ++n) CHECK(glm::distance(sampled[n], map(uv[n])) < 1e-4);
@@ -126,7 +125,7 @@ TEST_CASE("tessellate: a feature of about as many triangles as wanted, on the ma
     mapped_mushroom m;
     REQUIRE(m.map);
     const auto& part = m.pasted.part();
-    const auto map = make_feature_map(m.q, part, m.map.uv, {.resolution = 128});
+    const auto map = make_feature_map(m.q, part, m.map.uv, 128);
     double before = 1e9;
     for (const int wanted : {600, 2400, 9600})
     {
@@ -146,14 +145,14 @@ TEST_CASE("tessellate: a feature of about as many triangles as wanted, on the ma
         CHECK(check(again.surface(), {.open = false, .one_boundary = false}).empty());
     }
     CHECK(before < 0.5 * map.footprint);
-    CHECK_THROWS_AS(m.pasted.refill(make_feature(geodesic_disk(test::mushroom(24), 0, 1.9))), parameter_error);
+    CHECK_THROWS_AS(m.pasted.refill(feature(geodesic_disk(test::mushroom(24), 0, 1.9))), parameter_error);
 }
 
 TEST_CASE("feature map: files")
 {
     mapped_mushroom m;
     REQUIRE(m.map);
-    const auto map = make_feature_map(m.q, m.pasted.part(), m.map.uv, {.resolution = 64});
+    const auto map = make_feature_map(m.q, m.pasted.part(), m.map.uv, 64);
     const std::string exr = io::exr_of(map);
     const auto texels = std::size_t(map.width * map.height);
     CHECK(exr.substr(0, 8) == std::string("\x76\x2f\x31\x01\x02\0\0\0", 8));

@@ -371,9 +371,8 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
     const auto pins =
         taut::constraints(m).fix(bottom(m)).move(top(m), [](const vec3& p) { return p - vec3(0, 0, 1.8); });
     int asked = 0;
-    deform_params<tetrahedron> params{.constraints = pins,
-                                      .limits = {.observer = [&](const progress&) { return ++asked < 3; }}};
-    const auto r = deform(q, m, params);
+    deform_params<tetrahedron> params{.constraints = pins};
+    const auto r = deform(q, m, params, {.observer = [&](const progress&) { return ++asked < 3; }});
     CHECK(r.report.outcome == outcome::stopped);
     CHECK(!r.report.pins_held);
     CHECK(r.report.distance > 0);
@@ -381,8 +380,8 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
 
     // Before the first step it is the shape to begin with.
     bool usable = false;
-    params.limits.observer = [&](const progress& p) { return usable = p.usable, false; };
-    const auto none = deform(q, m, params);
+    run_limits limits{.observer = [&](const progress& p) { return usable = p.usable, false; }};
+    const auto none = deform(q, m, params, limits);
     CHECK(usable);
     CHECK(none.report.outcome == outcome::stopped);
     CHECK(none.report.steps == 0);
@@ -390,8 +389,8 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
     CHECK(none.report.energy == doctest::Approx(2));
     CHECK(std::equal(none.x.begin(), none.x.end(), m.points().begin()));
     params.constraints = {};
-    params.limits.time_limit = {};
-    const auto late = deform(q, m, params);
+    limits.time_limit = {};
+    const auto late = deform(q, m, params, limits);
     CHECK(late.report.outcome == outcome::valid);
     CHECK(late.report.stopped);
     CHECK(late.report.pins_held);

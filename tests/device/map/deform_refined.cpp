@@ -17,7 +17,7 @@ TEST_CASE("deform with refinement: pins that turn an element over are met on a r
     for (taut::idx v = 0; v < problem.rest.vertex_count(); ++v)
         params.constraints.pin(v, problem.initial[static_cast<std::size_t>(v)]);
     CHECK(deform(q, problem.rest, params).report.outcome == outcome::infeasible);
-    const auto found = deform(q, problem.rest, params, {});
+    const auto found = deform(q, problem.rest, params, {}, {});
     REQUIRE(found.result);
     CHECK(found.result.report.pins_held);
     CHECK(found.how.middles().size() == 1);
@@ -25,5 +25,5 @@ TEST_CASE("deform with refinement: pins that turn an element over are met on a r
     for (std::size_t v = 0; v < problem.initial.size(); ++v) CHECK(found.result.x[v] == problem.initial[v]);
 
     params.targets.assign(problem.rest.cells().size(), mat3(1.0));
-    CHECK_THROWS_AS(deform(q, problem.rest, params, {}), parameter_error);
+    CHECK_THROWS_AS(deform(q, problem.rest, params, {}, {}), parameter_error);
 }

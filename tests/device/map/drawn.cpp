@@ -231,12 +231,12 @@ TEST_CASE("drawn start: a stop on the way leaves no map, and one after it the ma
     bound_map b;
     b.inside(12, [&](idx v, const vec2& p) { b.pins.pin(v, b.swirled(p, 1.2)); });
     int asked = 0;
-    const auto early = parameterize(
-        b.q, b.m, {.constraints = b.pins, .limits = {.observer = [&](const auto&) { return ++asked < 10; }}});
+    const auto early =
+        parameterize(b.q, b.m, {.constraints = b.pins}, {.observer = [&](const auto&) { return ++asked < 10; }});
     CHECK(early.report.outcome == outcome::stopped);
     CHECK(early.uv.empty());
-    const auto late = parameterize(
-        b.q, b.m, {.constraints = b.pins, .limits = {.observer = [](const auto& p) { return !p.usable; }}});
+    const auto late =
+        parameterize(b.q, b.m, {.constraints = b.pins}, {.observer = [](const auto& p) { return !p.usable; }});
     b.check(late);
     CHECK(late.report.solve.stop == solve::stop::user);
 }

@@ -120,7 +120,7 @@ TEST_CASE("no_overlap: who stops it gets a map without crossings all the same")
             if (left < 0 && p.level == 0 && p.usable && p.iterate) left = asked;
             return left < 0 || left-- > 0;
         };
-        const auto r = parameterize(q, m, {.no_overlap = true, .limits = {.observer = stop}});
+        const auto r = parameterize(q, m, {.no_overlap = true}, {.observer = stop});
         check_apart(m, r);
         CHECK(r.report.solve.stop == solve::stop::user);
     }
@@ -133,9 +133,9 @@ TEST_CASE("no_overlap: where time ends it, it is time that is told")
     int asked = 0;
     const auto count = [&](const progress&) { return ++asked > 0; };
     const budget clock;
-    REQUIRE(parameterize(q, m, {.limits = {.observer = count}}));
+    REQUIRE(parameterize(q, m, {}, {.observer = count}));
     const int before = std::exchange(asked, 0);
-    const auto whole = parameterize(q, m, {.no_overlap = true, .limits = {.observer = count}});
+    const auto whole = parameterize(q, m, {.no_overlap = true}, {.observer = count});
     REQUIRE(whole.report.overlap->rounds > 1);
     REQUIRE(asked > before + 8);
     const double limit = 2 * clock.total();
@@ -151,9 +151,8 @@ TEST_CASE("no_overlap: where time ends it, it is time that is told")
             ++asked;
             return true;
         };
-        const auto r = parameterize(
-            q, m,
-            {.no_overlap = true, .limits = {.time_limit = std::chrono::duration<double>(limit), .observer = wait}});
+        const auto r = parameterize(q, m, {.no_overlap = true},
+                                    {.time_limit = std::chrono::duration<double>(limit), .observer = wait});
         if (!r) continue; // there was none yet
         CAPTURE(more);
         CHECK(r.report.solve.stop == solve::stop::time);
@@ -256,7 +255,7 @@ TEST_CASE("no_overlap: a tube too long for a map on a polygon gets one that was 
     impl::run_clock clock(budget::unlimited, {});
     const impl::run_surface in(m, params);
     const impl::map_run run(q, in, params, clock);
-    CHECK(barycentric_map(m, params.barycentric).distortion.measure > 1e8);
+    CHECK(barycentric_map(m, params.barycentric()).distortion.measure > 1e8);
     const auto start = impl::start_apart(run, boundary_loops(m));
     CHECK(start.flips);
     CHECK(start.distortion.measure < 1e4);

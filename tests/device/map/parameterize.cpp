@@ -117,14 +117,13 @@ TEST_CASE("parameterize: a fixed boundary stays where the start has it, bit for 
 {
     queue q;
     const auto m = dome();
-    for (const auto shape : {boundary_shape::circle, boundary_shape::square})
+    for (const auto boundary : {boundary_mode::fixed, boundary_mode::square})
         for (const auto how : {precision::fp64, precision::mixed, precision::fp32})
             for (const auto method : methods)
             {
                 const auto r = parameterize(q, m,
-                                            {.boundary = boundary_mode::fixed,
+                                            {.boundary = boundary,
                                              .start = start_method::barycentric,
-                                             .barycentric = {.boundary = {.shape = shape}},
                                              .precision = how,
                                              .solve = {.method = method, .stopping = {.max_iterations = 10}}});
                 REQUIRE(r);
@@ -304,11 +303,11 @@ TEST_CASE("parameterize: parameters outside their domain are named")
 {
     queue q;
     const auto m = test::single_triangle();
-    const auto field_of = [&](const parameterize_params& p)
+    const auto field_of = [&](const parameterize_params& p, const run_limits& limits = {})
     {
         try
         {
-            parameterize(q, m, p);
+            parameterize(q, m, p, limits);
         }
         catch (const parameter_error& e)
         {
@@ -318,11 +317,11 @@ TEST_CASE("parameterize: parameters outside their domain are named")
     };
     CHECK(field_of({.precision = static_cast<precision>(9)}) == "precision");
     CHECK(field_of({.boundary = static_cast<boundary_mode>(7)}) == "boundary");
-    CHECK(field_of({.limits = {.time_limit = -3s}}) == "time_limit");
+    CHECK(field_of({}, {.time_limit = -3s}) == "time_limit");
     CHECK(field_of({.start = static_cast<start_method>(9)}) == "start");
-    CHECK(field_of({.start = start_method::barycentric, .barycentric = {.stretch_rounds = -1}}) == "stretch_rounds");
+    CHECK(field_of({.start = start_method::barycentric, .tuning = {.stretch_rounds = -1}}) == "stretch_rounds");
     CHECK(field_of({.solve = {.tuning = {.newton = {.relax_below = 2}}}}) == "newton.relax_below");
-    CHECK(field_of({.solve = {.line_search = {.tuning = {.shrink = 0.4}}}}) == "line_search");
+    CHECK(field_of({.solve = {.tuning = {.line = {.shrink = 0.4}}}}) == "line_search");
 }
 
 TEST_CASE("parameterize: stopping for any reason leaves a valid map once there is one")
@@ -338,9 +337,8 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map once there i
         const auto until = [&](auto&& goes_on)
         {
             asked = 0;
-            return parameterize(q, m, {.solve = endless, .limits = {.observer = [&](const taut::progress& p) {
-                                                             return goes_on(++asked, p.usable);
-                                                         }}});
+            return parameterize(q, m, {.solve = endless},
+                                {.observer = [&](const taut::progress& p) { return goes_on(++asked, p.usable); }});
         };
         until([](int, bool usable) { return !usable; });
         const int first = asked; // question with a map in hand
@@ -363,7 +361,7 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map once there i
             CHECK(cancelled.reason() == "stopped before there was a map");
         }
 
-        const auto late = parameterize(q, m, {.solve = endless, .limits = {.time_limit = 0s}});
+        const auto late = parameterize(q, m, {.solve = endless}, {.time_limit = 0s});
         CHECK(late.report.outcome == outcome::stopped);
         CHECK(late.report.solve.stop == solve::stop::time);
         CHECK(late.uv.empty());

@@ -102,9 +102,8 @@ TEST_CASE("pins: a stop once there is a start leaves it, with its pins in place"
     {
         CAPTURE(questions);
         int usable = 0;
-        const auto r = parameterize(q, m, {.constraints = pins, .limits = {.observer = [&](const auto& p) {
-                                                                    return !p.usable || usable++ < questions;
-                                                                }}});
+        const auto r = parameterize(q, m, {.constraints = pins},
+                                    {.observer = [&](const auto& p) { return !p.usable || usable++ < questions; }});
         CHECK(usable == questions + 1);
         CHECK(r.report.solve.stop == solve::stop::user);
         CHECK(certified(m, r));

@@ -396,17 +396,17 @@ TEST_CASE("session: an observer sees maps of the way and can end the call")
     const auto m = bump();
     int maps = 0, asked = 0;
     bool go_on = true;
-    session s(q, m,
-              {.limits = {.observer = [&](const progress& p)
-                          {
-                              ++asked;
-                              if (p.coordinates)
-                              {
-                                  CHECK(certify<2>(m.cells(), std::span<const vec2>(p.coordinates())));
-                                  ++maps;
-                              }
-                              return go_on;
-                          }}});
+    session s(q, m, {},
+              {.observer = [&](const progress& p)
+               {
+                   ++asked;
+                   if (p.coordinates)
+                   {
+                       CHECK(certify<2>(m.cells(), std::span<const vec2>(p.coordinates())));
+                       ++maps;
+                   }
+                   return go_on;
+               }});
     REQUIRE(s.solve());
     CHECK(maps > 0);
     const handles h(m, s.x());

@@ -41,7 +41,7 @@ TEST_CASE("stages: of a free map from coarse to fine, complete, with the energie
     queue q;
     const auto m = bumps();
     test::stage_watch watch;
-    const auto r = parameterize(q, m, {.limits = {.observer = watch.observer()}});
+    const auto r = parameterize(q, m, {}, {.observer = watch.observer()});
     REQUIRE(r);
     const auto& stages = r.report.stages;
     watch.check_complete(stages);
@@ -97,8 +97,7 @@ TEST_CASE("stages: of a map without levels, and of pins that are drawn or untang
     {
         test::stage_watch watch;
         const auto start = coarse ? start_method::automatic : start_method::barycentric;
-        const auto r =
-            parameterize(q, m, {.constraints = pins, .start = start, .limits = {.observer = watch.observer()}});
+        const auto r = parameterize(q, m, {.constraints = pins, .start = start}, {.observer = watch.observer()});
         REQUIRE(r);
         watch.check_complete(r.report.stages);
         int drawn = 0, proved = 0;
@@ -142,7 +141,7 @@ TEST_CASE("stages: of a shape whose pins move, and of one that is untangled firs
         if (tangled) std::swap(initial[40], initial[100]);
         test::stage_watch watch;
         const auto r =
-            deform<triangle>(q, m, {.constraints = pins, .initial = initial, .limits = {.observer = watch.observer()}});
+            deform<triangle>(q, m, {.constraints = pins, .initial = initial}, {.observer = watch.observer()});
         REQUIRE(r);
         watch.check_complete(r.report.stages);
         int steps = 0;

@@ -247,7 +247,7 @@ TEST_CASE("map objective: the device and the host model give the same iterates t
         } device{f};
         // Brent's method would find the same minimum along a line only to half the digits.
         const solve::params params{.method = method,
-                                   .line_search = {.method = solve::line_search_method::strong_wolfe},
+                                   .line_search = solve::line_search_method::strong_wolfe,
                                    .stopping = {.max_iterations = 8}};
         auto x = f.make_point();
         f.upload(s.start, x);

@@ -145,12 +145,12 @@ TEST_CASE("nested: the report tells of every level")
     queue q;
     const auto m = test::bumpy(test::sized(96, 5), 0.25, 2);
     std::set<int> seen;
-    const auto r = parameterize(q, m,
-                                {.limits = {.observer = [&](const taut::progress& p)
-                                            {
-                                                if (p.iterate) seen.insert(p.level);
-                                                return true;
-                                            }}});
+    const auto r = parameterize(q, m, {},
+                                {.observer = [&](const taut::progress& p)
+                                 {
+                                     if (p.iterate) seen.insert(p.level);
+                                     return true;
+                                 }});
     check_converged(m, r);
     const auto& levels = r.report.levels;
     if (m.points().size() > 9000) REQUIRE(levels.size() >= 2);
@@ -184,9 +184,9 @@ TEST_CASE("nested: a fixed boundary is the same outline on every path, and stays
 {
     queue q;
     const auto m = hills();
-    for (const auto shape : {boundary_shape::circle, boundary_shape::square})
+    for (const auto boundary : {boundary_mode::fixed, boundary_mode::square})
     {
-        parameterize_params p{.boundary = boundary_mode::fixed, .barycentric = {.boundary = {.shape = shape}}};
+        parameterize_params p{.boundary = boundary};
         const auto r = parameterize(q, m, p);
         check_converged(m, r);
         p.precision = precision::fp64;
@@ -269,15 +269,13 @@ TEST_CASE("nested: preconditioned BFGS and conjugate gradients converge, in fewe
         const auto plain = parameterize(q, m, p);
         p.multigrid = true;
         // From the plain barycentric map the Hessian of the start would not serve for long.
-        const std::tuple<start_method, barycentric_params, precision> runs[] = {
-            {start_method::coarse, {}, precision::fp64},
-            {start_method::coarse, {}, precision::automatic},
-            {start_method::barycentric, {.weights = barycentric_weights::uniform}, precision::fp64}};
-        for (const auto& [start, barycentric, how] : runs)
+        const std::pair<start_method, precision> runs[] = {{start_method::coarse, precision::fp64},
+                                                           {start_method::coarse, precision::automatic},
+                                                           {start_method::tutte, precision::fp64}};
+        for (const auto& [start, how] : runs)
         {
             p.start = start;
             CAPTURE(static_cast<int>(p.start));
-            p.barycentric = barycentric;
             p.precision = how;
             const auto r = parameterize(q, m, p);
             check_converged(m, r);
@@ -359,15 +357,14 @@ TEST_CASE("nested: a caller who stops a run gets a certified map from the finest
             CAPTURE(level);
             CAPTURE(steps);
             int refused = 0;
-            const auto r =
-                parameterize(q, m,
-                             {.limits = {.observer = [&](const taut::progress& p)
+            const auto r = parameterize(q, m, {},
+                                        {.observer = [&](const taut::progress& p)
                                          {
                                              if (p.level != level || p.evaluations == 0 || p.iteration < steps)
                                                  return true;
                                              ++refused;
                                              return false;
-                                         }}});
+                                         }});
             if (refused > 0)
             {
                 CHECK(refused == 1);
@@ -389,14 +386,14 @@ TEST_CASE("nested: a stop in any phase leaves a certified map or none")
     const auto m = test::bumpy(test::sized(50, 5), 0.5, 3);
     int asked = 0, last = 0;
     const auto count = [&](const taut::progress&) { return ++asked, true; };
-    REQUIRE(parameterize(q, m, {.limits = {.observer = count}}));
+    REQUIRE(parameterize(q, m, {}, {.observer = count}));
     for (int k = 0; k <= 10; ++k)
     {
         last = 1 + k * (asked - 2) / 10; // not the last one, which need not be minded
         bool usable = false;
         int now = 0;
         const auto stop = [&](const taut::progress& p) { return usable = p.usable, ++now < last; };
-        const auto r = parameterize(q, m, {.limits = {.observer = stop}});
+        const auto r = parameterize(q, m, {}, {.observer = stop});
         if (usable) CHECK(r);
         CHECK(r.report.outcome == (r ? outcome::valid : outcome::stopped));
         CHECK(r.report.solve.stop == solve::stop::user);

@@ -55,13 +55,11 @@ TEST_CASE("lead: without a positive shape at rest, or time, it gives up")
 {
     auto problem = twisted_ends();
     queue q(test::shared_context());
-    untangle_params params;
-    params.stages = {"lead"};
-    params.limits.observer = [](const progress&) { return false; };
-    CHECK(untangle(q, problem, params).outcome == untangle_outcome::gave_up);
+    const run_limits limits{.observer = [](const progress&) { return false; }};
+    CHECK(untangle(q, problem, {.stages = {"lead"}}, limits).outcome == outcome::gave_up);
 
     auto points = problem.rest.points();
     for (vec3& p : points) p.x = -p.x;
     problem.rest = mesh<tetrahedron>(std::move(points), problem.rest.cells());
-    CHECK(untangle(q, problem, {.stages = {"lead"}}).outcome == untangle_outcome::gave_up);
+    CHECK(untangle(q, problem, {.stages = {"lead"}}).outcome == outcome::gave_up);
 }

@@ -15,8 +15,8 @@ template <class Element>
 void check_mended(const untangle_problem<Element>& problem)
 {
     queue q(test::shared_context());
-    REQUIRE(untangle(q, problem).outcome == untangle_outcome::infeasible);
-    const auto [result, refined] = untangle(q, problem, {}, {});
+    REQUIRE(untangle(q, problem).outcome == outcome::infeasible);
+    const auto [result, refined] = untangle(q, problem, {}, {}, {});
     REQUIRE(result);
     test::check_typed(refined.problem, result);
     CHECK(!refined.how.empty());
@@ -38,7 +38,7 @@ TEST_CASE("untangle with refinement: where no map is found, and nothing is prove
     const auto problem = test::cone_in_a_u();
     REQUIRE(!find_infeasibility(problem));
     queue q(test::shared_context());
-    const auto [result, refined] = untangle(q, problem, {.rounds = 1}, {.rounds = 2, .max_growth = 3});
+    const auto [result, refined] = untangle(q, problem, {.rounds = 1}, {}, {.rounds = 2, .max_growth = 3});
     test::check_typed(refined.problem, result);
     CHECK(refined.rounds > 0);
     CHECK(refined.cells.size() <= 3 * problem.rest.cells().size());
@@ -51,7 +51,7 @@ TEST_CASE("untangle with refinement: a mesh that has a solution is not split")
     auto problem = test::reflex_quad();
     problem.initial[0] = vec2(0, 0);
     queue q(test::shared_context());
-    const auto r = untangle(q, problem, {}, {});
+    const auto r = untangle(q, problem, {}, {}, {});
     CHECK(r.result);
     CHECK(r.refined.how.empty());
     CHECK(r.refined.cells == std::vector<taut::idx>{0, 1});
@@ -62,8 +62,8 @@ TEST_CASE("untangle with refinement: what splits do not mend is infeasible, with
     auto problem = test::folded_edge();
     for (auto& x : problem.initial) x.x = -x.x;
     queue q(test::shared_context());
-    const auto r = untangle(q, problem, {}, {}).result;
-    CHECK(r.outcome == untangle_outcome::infeasible);
+    const auto r = untangle(q, problem, {}, {}, {}).result;
+    CHECK(r.outcome == outcome::infeasible);
     CHECK(r.reason.find("no split inside") != std::string::npos);
 }
 
@@ -71,10 +71,9 @@ TEST_CASE("untangle with refinement: who says no is not asked again")
 {
     const auto problem = test::fan_in_a_u();
     queue q(test::shared_context());
-    untangle_params params;
     int asked = 0;
-    params.limits.observer = [&](const progress&) { return ++asked < 0; };
-    const auto r = untangle(q, problem, params, {}).result;
+    const run_limits limits{.observer = [&](const progress&) { return ++asked < 0; }};
+    const auto r = untangle(q, problem, {}, limits, {}).result;
     CHECK(!r);
     CHECK(asked == 1);
 }

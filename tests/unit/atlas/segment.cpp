@@ -19,10 +19,10 @@ using namespace taut::impl;
 namespace
 {
 
-segmentation segment_on_host(const mesh<triangle>& m, const segment_params& params = {})
+segmentation segment_on_host(const mesh<triangle>& m, const segment_params& params = {}, const run_limits& limits = {})
 {
     return segment(
-        m, facets(m), [](const chart_mesh& charts) { return test::flatten_on_host(charts); }, params);
+        m, facets(m), [](const chart_mesh& charts) { return test::flatten_on_host(charts); }, params, limits);
 }
 
 /// Charts must be flattenable, each with the map that its energy says, and within the bounds.
@@ -148,7 +148,7 @@ TEST_CASE("segment: the same twice, and an observer ends it with what there is")
     const auto one = segment_on_host(m), other = segment_on_host(m);
     CHECK(one.seam == other.seam);
     CHECK(one.uv == other.uv);
-    const auto ended = segment_on_host(m, {.limits = {.observer = [](const progress&) { return false; }}});
+    const auto ended = segment_on_host(m, {}, {.observer = [](const progress&) { return false; }});
     CHECK(test::check_flattenable(m, facets(m), ended.seam) == ended.charts.charts());
     CHECK(ended.report.cut + ended.report.united == 0);
 }
@@ -237,7 +237,7 @@ TEST_CASE("segment: who stops it at once gets pieces without maps")
         flattened += charts.charts();
         return test::flatten_on_host(charts);
     };
-    const auto result = segment(m, facets(m), flatten, {.limits = {.observer = [](const progress&) { return false; }}});
+    const auto result = segment(m, facets(m), flatten, {}, {.observer = [](const progress&) { return false; }});
     CHECK(flattened == 0);
     CHECK(result.report.unmapped == result.charts.charts());
     CHECK(test::check_flattenable(m, facets(m), result.seam) == result.charts.charts());
@@ -253,8 +253,7 @@ TEST_CASE("segment: who stops it while first charts are looked at gets pieces wi
         ++calls;
         return test::flatten_on_host(charts);
     };
-    const auto result =
-        segment(m, facets(m), flatten, {.limits = {.observer = [&](const progress&) { return calls == 0; }}});
+    const auto result = segment(m, facets(m), flatten, {}, {.observer = [&](const progress&) { return calls == 0; }});
     CHECK(calls == 1);
     CHECK(result.report.unmapped == result.charts.charts());
     CHECK(test::check_flattenable(m, facets(m), result.seam) == result.charts.charts());

@@ -223,11 +223,11 @@ TEST_CASE("constraints: a file of pins becomes pins and springs")
 {
     const auto m = test::grid(2, 2);
     auto c = taut::constraints(m);
-    add_pins(c, io::impl::parse_pins<2>("0,1,2\n3,,4\n5,0.5,0.5,2\n"));
+    c.add(io::impl::parse_pins<2>("0,1,2\n3,,4\n5,0.5,0.5,2\n"));
     CHECK(c.held(0) == 3);
     CHECK(c.held(3) == 2);
     CHECK(c.springs().at(0).vertex == 5);
-    check_refused([&] { add_pins(c, io::impl::parse_pins<2>("0,1,3\n")); }, constraint_error::contradictory, {0});
+    check_refused([&] { c.add(io::impl::parse_pins<2>("0,1,3\n")); }, constraint_error::contradictory, {0});
 }
 
 TEST_CASE("constraints: targets that another unit brings out of range are named")

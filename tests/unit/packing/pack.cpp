@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <vector>
 
@@ -17,9 +18,9 @@ using support::chart_set;
 using taut::idx;
 using taut::vec2;
 
-taut::packing packed(const chart_set& s, const taut::pack_params& params = {})
+taut::packing packed(const chart_set& s, const taut::pack_params& params = {}, const taut::run_limits& limits = {})
 {
-    return taut::pack(s.uv, s.cells, s.first_cell, s.first_vertex, params);
+    return taut::pack(s.uv, s.cells, s.first_cell, s.first_vertex, params, limits);
 }
 
 /// Certifies what files get: coordinates as floats.
@@ -258,15 +259,11 @@ TEST_CASE("pack: the same charts are packed the same way")
 TEST_CASE("pack: ended at once, there still is a layout, and it holds")
 {
     const auto s = support::ragged_charts(100, 40, 20, 9);
-    taut::pack_params params;
-    params.limits.time_limit = taut::impl::budget::seconds(1e-9);
-    const auto limited = packed(s, params);
+    const auto limited = packed(s, {}, {.time_limit = std::chrono::nanoseconds(1)});
     CHECK_FALSE(limited.complete);
     CHECK(holds(s, limited));
-    params = {};
     int asked = 0;
-    params.limits.observer = [&](const taut::progress&) { return ++asked < 3; };
-    const auto ended = packed(s, params);
+    const auto ended = packed(s, {}, {.observer = [&](const taut::progress&) { return ++asked < 3; }});
     CHECK(asked == 3);
     CHECK_FALSE(ended.complete);
     CHECK(holds(s, ended));
@@ -364,12 +361,12 @@ TEST_CASE("pack: charts keep away from walls, and fill what these leave")
         }
     // A run that has no time has a layout, too; what is full has none.
     taut::pack_params params;
-    params.limits.time_limit = taut::impl::budget::seconds(1e-9);
+    const taut::run_limits none{.time_limit = std::chrono::nanoseconds(1)};
     chart_set walls;
     add_wall(params, walls, 0, {0.25, 0.25}, {0.5, 0.5});
-    const auto p = packed(squares(5), params);
+    const auto p = packed(squares(5), params, none);
     CHECK(!p.complete);
     CHECK(p.scale > 0);
     add_wall(params, walls, 0, {0, 0}, {1, 1});
-    CHECK_THROWS_AS(packed(squares(5), params), taut::packing_error);
+    CHECK_THROWS_AS(packed(squares(5), params, none), taut::packing_error);
 }

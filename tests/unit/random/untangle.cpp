@@ -111,7 +111,7 @@ TEST_CASE("untangle: random pins on random disks end honestly, and those of a va
         if (!pins_fit || valid.flips.flipped > 0 || number % 50 == 0) continue;
         ++possible;
         solved += static_cast<bool>(result);
-        CHECK(result.outcome != untangle_outcome::infeasible);
+        CHECK(result.outcome != outcome::infeasible);
     }
     MESSAGE(cases, " cases, ", possible, " with pins of a valid map, of which ", solved, " were met");
     CHECK(solved >= 0.9 * possible);

@@ -208,7 +208,7 @@ TEST_CASE("repair: flat triangles are left out at any scale, thin ones stay")
     }
     // So small beside the others that no area is left of it.
     const auto r = repair({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1e-170, 0, 0}, {0, 1e-170, 0}}, {{0, 1, 2}, {0, 3, 4}}});
-    CHECK(only(r, repair_kind::degenerate_cell) == ids{1});
+    CHECK(only(r, repaired_surface::degenerate_cell) == ids{1});
 }
 
 TEST_CASE("repair: a needle between two equal vertices is left out, and what lay beside it is sewn")

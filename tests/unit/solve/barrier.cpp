@@ -84,8 +84,9 @@ TEST_CASE_TEMPLATE("barrier: no trial ever leaves the domain, and the minimum ne
             Objective f({1, 100, 1e4, 1e6});
             std::vector<double> x{5, 5, 5, 5};
             const auto r = minimize(f, x,
-                                    {.line_search = {.method = method, .barrier_fraction = fraction},
-                                     .stopping = {.gradient_tolerance = 1e-9}});
+                                    {.line_search = method,
+                                     .stopping = {.gradient_tolerance = 1e-9},
+                                     .tuning = {.line = {.barrier_fraction = fraction}}});
             CAPTURE(r);
             CHECK(r.stop == stop::gradient);
             CHECK(f.outside == 0);
@@ -152,7 +153,7 @@ TEST_CASE("barrier: NaN islands and a domain without a max_step are searched aro
     {
         CAPTURE(int(method));
         std::vector<double> x{-3, 2.9};
-        const auto r = minimize(f, x, {.line_search = {.method = method}});
+        const auto r = minimize(f, x, {.line_search = method});
         CHECK(r.stop == stop::gradient);
         CHECK(x[0] == doctest::Approx(2).epsilon(1e-4));
         for (const auto& entry : r.history) CHECK(std::isfinite(entry.value));

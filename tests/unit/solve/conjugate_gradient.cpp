@@ -15,9 +15,8 @@ report run(std::vector<double>& x, conjugate_gradient_params p, double curvature
     auto f = functions::rosenbrock(x.size());
     return minimize(f, x,
                     {.method = method::conjugate_gradient,
-                     .conjugate_gradient = p,
-                     .line_search = {.wolfe = {.curvature = curvature}},
-                     .stopping = {.gradient_tolerance = tolerance, .max_iterations = 5000}});
+                     .stopping = {.gradient_tolerance = tolerance, .max_iterations = 5000},
+                     .tuning = {.line = {.wolfe = {.curvature = curvature}}, .conjugate_gradient = p}});
 }
 
 } // namespace
@@ -56,12 +55,12 @@ TEST_CASE("conjugate gradient: plain and with exact searches it solves a quadrat
                              return value;
                          });
         std::vector<double> x = functions::noise(30);
-        const auto r = minimize(f, x,
-                                {.method = method::conjugate_gradient,
-                                 .conjugate_gradient = {.beta = beta, .memory = {.pairs = 0}},
-                                 .line_search = {.wolfe = {.curvature = 0.001},
-                                                 .tuning = {.exact = {.tolerance = 1e-9, .evaluations = 60}}},
-                                 .stopping = {.gradient_tolerance = 1e-6}});
+        const auto r = minimize(
+            f, x,
+            {.method = method::conjugate_gradient,
+             .stopping = {.gradient_tolerance = 1e-6},
+             .tuning = {.line = {.wolfe = {.curvature = 0.001}, .exact = {.tolerance = 1e-9, .evaluations = 60}},
+                        .conjugate_gradient = {.beta = beta, .memory = {.pairs = 0}}}});
         CHECK(r.stop == stop::gradient);
         CHECK(r.iterations >= 5);
         CHECK(r.iterations <= 6); // one for the inexactness of Brent
@@ -128,10 +127,9 @@ TEST_CASE("conjugate gradient: both forms of the preconditioner give the same it
         auto f = functions::chain(50);
         std::vector<double> x = functions::noise(50), y = x;
         const params p{.method = method::conjugate_gradient,
-                       .conjugate_gradient = {.beta = beta, .memory = {.pairs = 3}},
-                       // Brent's steps are noise from 1e-8 on.
-                       .line_search = {.method = line_search_method::strong_wolfe},
-                       .stopping = {.gradient_tolerance = 0, .max_iterations = 30}};
+                       .line_search = line_search_method::strong_wolfe, // Brent's steps are noise from 1e-8 on
+                       .stopping = {.gradient_tolerance = 0, .max_iterations = 30},
+                       .tuning = {.conjugate_gradient = {.beta = beta, .memory = {.pairs = 3}}}};
         minimize(f, x, p);
         minimize_by_two_loops(f, y, p);
         CHECK(functions::distance(x, y) < 1e-10);

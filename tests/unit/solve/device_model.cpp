@@ -152,20 +152,20 @@ TEST_CASE("device model: an iteration whose full step is accepted makes the host
         auto x = f.make_point();
         *x.data = functions::noise(80);
         int waits = 0, evaluations = 0, full = 0, iteration = 0;
-        minimize(f, x, {.method = which},
-                 [&](const taut::progress& p)
-                 {
-                     if (!p.iterate) return true;
-                     if (p.iteration > 0 && p.step == 1 && p.evaluations == evaluations + 1)
-                     {
-                         ++full;
-                         CHECK(f.space().waits - waits == 3); // max_step, value with gradient, multi_dot
-                     }
-                     waits = f.space().waits;
-                     evaluations = p.evaluations;
-                     iteration = p.iteration;
-                     return true;
-                 });
+        const auto watch = [&](const taut::progress& p)
+        {
+            if (!p.iterate) return true;
+            if (p.iteration > 0 && p.step == 1 && p.evaluations == evaluations + 1)
+            {
+                ++full;
+                CHECK(f.space().waits - waits == 3); // max_step, value with gradient, multi_dot
+            }
+            waits = f.space().waits;
+            evaluations = p.evaluations;
+            iteration = p.iteration;
+            return true;
+        };
+        minimize(f, x, {.method = which}, {.observer = watch});
         CHECK(full > iteration / 2); // the common case
     }
 }

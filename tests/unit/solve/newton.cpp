@@ -486,10 +486,12 @@ TEST_CASE("newton: limits, the observer and bad parameters end a run as in the o
     auto f = rosenbrock(2);
     auto x = functions::rosenbrock_start(2);
     CHECK(newton(f, x, {}, {.stopping = {.max_iterations = 3}}).stop == stop::iterations);
-    CHECK(newton(f, x, {}, {}, [](const taut::progress& p) { return p.iteration < 2; }).stop == stop::user);
+    CHECK(newton(f, x, {}, {}, {.observer = [](const taut::progress& p) { return p.iteration < 2; }}).stop ==
+          stop::user);
     std::vector<double> bad{std::numeric_limits<double>::infinity(), 0.0};
     CHECK(newton(f, bad).stop == stop::not_finite_start);
-    CHECK_THROWS_AS(newton(f, x, {}, {.line_search = {.wolfe = {.sufficient_decrease = 0.5}}}), taut::parameter_error);
+    CHECK_THROWS_AS(newton(f, x, {}, {.line_search = {.tuning = {.wolfe = {.sufficient_decrease = 0.5}}}}),
+                    taut::parameter_error);
     CHECK_THROWS_AS(newton(f, x, {.pcg = {.block = 9}}), taut::parameter_error);
     CHECK_THROWS_AS(newton(f, x, {.exact_below = 1}), taut::parameter_error);
 }
@@ -510,17 +512,15 @@ TEST_CASE("newton: of a line search it takes what it has a use for, and refuses 
     };
     // The full step is the best one, and gains a quarter of what the slope promises.
     CHECK(run({}).history[1].step == 1);
-    CHECK(run({.line_search = {.wolfe = {.sufficient_decrease = 0.45}}}).history[1].step == doctest::Approx(0.5));
-    CHECK(run({.line_search = {.barrier_fraction = 0.5, .tuning = {.rounding = 1e-13}}}).history[1].step ==
-          1); // no barrier
+    CHECK(run({.tuning = {.line = {.wolfe = {.sufficient_decrease = 0.45}}}}).history[1].step == doctest::Approx(0.5));
+    CHECK(run({.tuning = {.line = {.barrier_fraction = 0.5, .rounding = 1e-13}}}).history[1].step == 1); // no barrier
     for (const auto m : {method::automatic, method::newton})
     {
-        CHECK_THROWS_AS(run({.method = m, .line_search = {.method = line_search_method::strong_wolfe}}),
-                        taut::parameter_error);
-        CHECK_THROWS_AS(run({.method = m, .line_search = {.wolfe = {.curvature = 0.5}}}), taut::parameter_error);
+        CHECK_THROWS_AS(run({.method = m, .line_search = line_search_method::strong_wolfe}), taut::parameter_error);
+        CHECK_THROWS_AS(run({.method = m, .tuning = {.line = {.wolfe = {.curvature = 0.5}}}}), taut::parameter_error);
         CHECK_THROWS_AS(run({.method = m, .tuning = {.first_length = 2}}), taut::parameter_error);
     }
-    CHECK_NOTHROW(run({.method = method::lbfgs, .line_search = {.tuning = {.shrink = 0.4}}}));
+    CHECK_NOTHROW(run({.method = method::lbfgs, .tuning = {.line = {.shrink = 0.4}}}));
 }
 
 TEST_CASE("newton: whatever ends a run, the report is of the point that it leaves")
@@ -530,7 +530,7 @@ TEST_CASE("newton: whatever ends a run, the report is of the point that it leave
         auto f = rosenbrock(4);
         std::vector<double> x(4, 0.5), g(4);
         int asked = 0;
-        const auto r = newton(f, x, {}, {}, [&](const taut::progress&) { return ++asked < questions; });
+        const auto r = newton(f, x, {}, {}, {.observer = [&](const taut::progress&) { return ++asked < questions; }});
         CAPTURE(questions);
         CHECK((r.stop == stop::user || r.stop == stop::gradient));
         CHECK(asked <= questions);

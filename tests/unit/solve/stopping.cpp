@@ -68,12 +68,12 @@ TEST_CASE("stopping: the observer sees every iterate and ends the run within one
         auto f = functions::rosenbrock(10);
         std::vector<double> x(10, 0.3);
         int asked = 0, iterates = 0;
-        const auto r = minimize(f, x, {},
-                                [&](const taut::progress& p)
-                                {
-                                    iterates += p.iterate;
-                                    return asked++ < limit;
-                                });
+        const auto ask = [&](const taut::progress& p)
+        {
+            iterates += p.iterate;
+            return asked++ < limit;
+        };
+        const auto r = minimize(f, x, {}, {.observer = ask});
         CHECK(r.stop == stop::user);
         CHECK(asked == limit + 1);
         CHECK(r.evaluations <= limit + 1); // nothing was computed after the answer
@@ -85,12 +85,12 @@ TEST_CASE("stopping: the observer sees every iterate and ends the run within one
     auto f = functions::rosenbrock(10);
     std::vector<double> x(10, 0.3);
     std::vector<double> values;
-    const auto r = minimize(f, x, {},
-                            [&](const taut::progress& p)
-                            {
-                                if (p.iterate) values.push_back(p.value);
-                                return true;
-                            });
+    const auto watch = [&](const taut::progress& p)
+    {
+        if (p.iterate) values.push_back(p.value);
+        return true;
+    };
+    const auto r = minimize(f, x, {}, {.observer = watch});
     REQUIRE(values.size() == r.history.size());
     for (std::size_t i = 0; i < values.size(); ++i) CHECK(values[i] == r.history[i].value);
 }
@@ -100,14 +100,13 @@ TEST_CASE("stopping: an exception of the observer passes through and leaves the 
     auto f = functions::rosenbrock(4);
     std::vector<double> x(4, 0.3);
     double value = 0;
-    CHECK_THROWS_AS(minimize(f, x, {},
-                             [&](const taut::progress& p) -> bool
-                             {
-                                 value = p.value;
-                                 if (p.iteration == 3) throw std::runtime_error("enough");
-                                 return true;
-                             }),
-                    std::runtime_error);
+    const auto fail = [&](const taut::progress& p)
+    {
+        value = p.value;
+        if (p.iteration == 3) throw std::runtime_error("enough");
+        return true;
+    };
+    CHECK_THROWS_AS(minimize(f, x, {}, {.observer = fail}), std::runtime_error);
     CHECK(f.value(x) == value);
 }
 
@@ -130,13 +129,14 @@ TEST_CASE("stopping: the time limit ends the run in the middle of a line search"
                          return std::pow(x[0] - 1, 4) + 1e4 * std::pow(x[1] - 1, 4);
                      });
     std::vector<double> x{30, -20};
-    const auto r = minimize(f, x, {.stopping = {.gradient_tolerance = 0, .time_limit = limit}});
+    const auto r = minimize(f, x, {.stopping = {.gradient_tolerance = 0}}, {.time_limit = limit});
     CHECK(r.stop == stop::time);
     CHECK(calls <= 3);
     CHECK(late == 0); // nothing is computed after the limit
     CHECK(r.evaluations == calls);
     CHECK(r.seconds >= 0.02);
     CHECK(r.value <= r.value_start);
+    CHECK_THROWS_AS(minimize(f, x, {}, {.time_limit = std::chrono::seconds(-1)}), taut::parameter_error);
 }
 
 TEST_CASE("stopping: a failing line search restarts with steepest descent once, then keeps the best iterate")
@@ -284,7 +284,7 @@ TEST_CASE("stopping: a run has settled where five Newton steps together gain nex
 
 TEST_CASE("stopping: steps are measured by the longest one")
 {
-    stopping_test test({.gradient_tolerance = 0, .decrease_tolerance = 0, .step_tolerance = 1e-2}, 1e-14);
+    stopping_test test({.gradient_tolerance = 0, .decrease_tolerance = 0, .tuning = {.step_tolerance = 1e-2}}, 1e-14);
     test.start(1);
     step_record k{.iteration = 1, .value_before = 10, .value = 9, .gradient = 1, .length = 5, .capped = false};
     CHECK_FALSE(test.after(k).has_value());
@@ -304,7 +304,7 @@ TEST_CASE("stopping: each tolerance ends a real run")
     };
     CHECK(reason({.gradient_tolerance = 1e-5}) == stop::gradient);
     CHECK(reason({.gradient_tolerance = 0, .decrease_tolerance = 1e-4}) == stop::decrease);
-    CHECK(reason({.gradient_tolerance = 0, .decrease_tolerance = 0, .step_tolerance = 1e-3}) == stop::step);
+    CHECK(reason({.gradient_tolerance = 0, .decrease_tolerance = 0, .tuning = {.step_tolerance = 1e-3}}) == stop::step);
 }
 
 TEST_CASE("report: prints one line and keeps the stream's format")

@@ -12,9 +12,9 @@
 namespace
 {
 
-using taut::barycentric_weights;
 using taut::vec2;
 using taut::impl::barycentric_system;
+using taut::impl::barycentric_weights;
 
 /// A path 0 - 1 - ... - n-1 with fixed ends at x = 0 and x = 1; weight[k] joins k and k + 1, weight[0] the left end.
 barycentric_system path(const std::vector<double>& weight)

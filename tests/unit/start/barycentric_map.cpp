@@ -14,12 +14,12 @@
 namespace
 {
 
-using taut::barycentric_weights;
-using taut::boundary_shape;
 using taut::boundary_spacing;
 using taut::vec2;
 using taut::vec3;
 using taut::impl::barycentric_params;
+using taut::impl::barycentric_weights;
+using taut::impl::boundary_shape;
 using surface = taut::mesh<taut::triangle>;
 
 std::vector<barycentric_params> all_params()

@@ -11,11 +11,11 @@
 namespace
 {
 
-using taut::boundary_shape;
 using taut::boundary_spacing;
 using taut::vec2;
 using taut::vec3;
 using taut::impl::boundary_polygon;
+using taut::impl::boundary_shape;
 
 /// A wavy closed curve in space with uneven steps.
 std::vector<vec3> curve(int n)

@@ -116,13 +116,13 @@ TEST_CASE("coarse untangling: what is infeasible is proved on the mesh itself, a
 {
     auto problem = scrambled(true);
     int asked = 0;
-    const auto stopped = untangle(problem, {.limits = {.observer = [&](const progress&) { return ++asked < 3; }}});
+    const auto stopped = untangle(problem, {}, {.observer = [&](const progress&) { return ++asked < 3; }});
     check_typed(problem, stopped);
-    CHECK(stopped.outcome == untangle_outcome::gave_up);
+    CHECK(stopped.outcome == outcome::gave_up);
 
     problem.initial[0].x += 40; // a corner of the boundary beyond the others
     const auto infeasible = untangle(problem);
     check_typed(problem, infeasible);
-    CHECK(infeasible.outcome == untangle_outcome::infeasible);
+    CHECK(infeasible.outcome == outcome::infeasible);
     for (const auto& s : infeasible.stages) CHECK(s.level == 0);
 }

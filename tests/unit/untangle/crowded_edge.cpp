@@ -208,7 +208,7 @@ TEST_CASE("untangle: a non_manifold edge is told as the reason why there is no m
     const auto p = edge_over_a_floor({vec2(0, 0), vec2(1, 0), vec2(3, 0), vec2(2, 0)});
     REQUIRE(!find_infeasibility(p));
     const auto r = untangle(p, {.stages = {"harmonic", "proof"}});
-    CHECK(r.outcome == untangle_outcome::infeasible);
+    CHECK(r.outcome == outcome::infeasible);
     CHECK(r.reason.find("no direction") != std::string::npos);
     REQUIRE(r.ids.size() >= 2);
     CHECK(r.ids[0] == 0);

@@ -36,7 +36,8 @@ TEST_CASE("refine_infeasible: an element that its pinned corners turn over is sp
 TEST_CASE("refine_infeasible: a vertex without a place gets edges that bend")
 {
     const auto problem = test::fan_in_a_u();
-    REQUIRE(find_infeasibility(problem).proofs[0].kind == infeasibility_kind::empty_star);
+    const auto proof = find_infeasibility(problem);
+    REQUIRE(proof.proofs[0].kind == proof.empty_star);
     const auto r = refine_infeasible(problem);
     CHECK(r.obstacle.empty());
     CHECK(r.rounds == 1);

@@ -56,7 +56,7 @@ TEST_CASE("untangle: a scrambled square is unfolded with its boundary where it w
     scramble(problem, 3, 1.0);
     const auto result = untangle(problem);
     check_typed(problem, result);
-    CHECK(result.outcome == untangle_outcome::injective);
+    CHECK(result.outcome == outcome::valid);
     CHECK(result.least_relative_det > 0.1);
     CHECK_FALSE(result.stage.empty());
 }
@@ -75,9 +75,7 @@ TEST_CASE("untangle: the stages that ran are reported from the proofs to the mar
     auto problem = square(16);
     std::swap(problem.initial[100], problem.initial[180]);
     test::stage_watch watch;
-    untangle_params params;
-    params.limits.observer = watch.observer();
-    const auto result = untangle(problem, params);
+    const auto result = untangle(problem, {}, {.observer = watch.observer()});
     watch.check_complete(result.stages);
     REQUIRE(result);
     REQUIRE(result.stages.size() >= 3);
@@ -109,7 +107,7 @@ TEST_CASE("untangle: pins inside are reached past each other")
     REQUIRE(!certify<2>(problem.rest.cells(), std::span<const vec2>(problem.initial)));
     const auto result = untangle(problem);
     check_typed(problem, result);
-    CHECK(result.outcome == untangle_outcome::injective);
+    CHECK(result.outcome == outcome::valid);
 }
 
 TEST_CASE("untangle: a boundary that is not convex is filled")
@@ -125,7 +123,7 @@ TEST_CASE("untangle: a boundary that is not convex is filled")
         if (!problem.held[v]) problem.initial[v] = vec2(0.0);
     const auto result = untangle(problem);
     check_typed(problem, result);
-    CHECK(result.outcome == untangle_outcome::injective);
+    CHECK(result.outcome == outcome::valid);
 }
 
 TEST_CASE("untangle: coordinates are held one by one")
@@ -141,7 +139,7 @@ TEST_CASE("untangle: coordinates are held one by one")
     problem.initial[1].x = -0.0;
     const auto result = untangle(problem);
     check_typed(problem, result);
-    CHECK(result.outcome == untangle_outcome::injective);
+    CHECK(result.outcome == outcome::valid);
 }
 
 TEST_CASE("untangle: a few pins, or none, are enough where everything else is free")
@@ -156,7 +154,7 @@ TEST_CASE("untangle: a few pins, or none, are enough where everything else is fr
         if (pins > 1) problem.held[35] = 3;
         const auto result = untangle(problem);
         check_typed(problem, result);
-        CHECK(result.outcome == untangle_outcome::injective);
+        CHECK(result.outcome == outcome::valid);
     }
 }
 
@@ -166,7 +164,7 @@ TEST_CASE("untangle: what cannot be is refused with a proof")
     for (vec2& p : mirrored.initial) p.x = -p.x;
     const auto result = untangle(mirrored);
     check_typed(mirrored, result);
-    CHECK(result.outcome == untangle_outcome::infeasible);
+    CHECK(result.outcome == outcome::infeasible);
 }
 
 TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best map and a reason")
@@ -176,24 +174,19 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     problem.initial[40] = vec2(0.9, 0.9);
     scramble(problem, 11, 1.0);
 
-    untangle_params params;
-    params.limits.time_limit = std::chrono::duration<double>(0);
-    const auto late = untangle(problem, params);
+    const auto late = untangle(problem, {}, {.time_limit = std::chrono::duration<double>(0)});
     check_typed(problem, late);
-    CHECK(late.outcome == untangle_outcome::gave_up);
+    CHECK(late.outcome == outcome::gave_up);
     CHECK(late.reason.find("time limit") != std::string::npos);
 
-    params = {};
-    params.limits.observer = [](const taut::progress&) { return false; };
-    const auto cancelled = untangle(problem, params);
+    const auto cancelled = untangle(problem, {}, {.observer = [](const taut::progress&) { return false; }});
     check_typed(problem, cancelled);
     CHECK(cancelled.reason.find("cancelled") != std::string::npos);
 
     // The question comes within the first step, too, which is then not made.
     int asked = 0;
-    params.stages = {"newton"};
-    params.limits.observer = [&](const taut::progress&) { return ++asked < 3; };
-    const auto within = untangle(problem, params);
+    untangle_params params{.stages = {"newton"}};
+    const auto within = untangle(problem, params, {.observer = [&](const taut::progress&) { return ++asked < 3; }});
     check_typed(problem, within);
     CHECK(asked == 3);
     REQUIRE(within.stages.size() == 2);
@@ -206,7 +199,7 @@ TEST_CASE("untangle: a limit, a cancel and a lack of stages end with the best ma
     params.stages = {"harmonic"};
     const auto alone = untangle(problem, params);
     check_typed(problem, alone);
-    CHECK(alone.outcome == untangle_outcome::gave_up);
+    CHECK(alone.outcome == outcome::gave_up);
     CHECK(alone.flips.flipped <= certify<2>(problem.rest.cells(), std::span<const vec2>(problem.initial)).flipped);
 }
 
@@ -223,7 +216,7 @@ TEST_CASE("untangle: each stage can run alone")
         params.stages = {stage};
         const auto result = untangle(problem, params);
         check_typed(problem, result);
-        CHECK(result.outcome == untangle_outcome::injective);
+        CHECK(result.outcome == outcome::valid);
     }
 }
 
@@ -248,7 +241,7 @@ TEST_CASE("untangle: the scale of the map does not matter")
         for (vec2& p : problem.initial) p *= scale;
         const auto result = untangle(problem);
         check_typed(problem, result);
-        CHECK(result.outcome == untangle_outcome::injective);
+        CHECK(result.outcome == outcome::valid);
     }
 }
 
@@ -305,7 +298,7 @@ TEST_CASE("untangle: a map that winds twice is not injective, and gets another o
     // Held where it is, it can only be refused.
     for (std::size_t v = 0; v < problem.held.size(); ++v) problem.held[v] = problem.held.every;
     const auto held = untangle(problem);
-    CHECK(held.outcome == untangle_outcome::infeasible);
+    CHECK(held.outcome == outcome::infeasible);
     CHECK(held.ids == std::vector<taut::idx>{0});
     CHECK(held.flips.branched == 1);
 
@@ -314,7 +307,7 @@ TEST_CASE("untangle: a map that winds twice is not injective, and gets another o
     untangle_params params;
     params.rounds = 1;
     const auto tried = untangle(problem, params);
-    CHECK(tried.outcome == untangle_outcome::gave_up);
+    CHECK(tried.outcome == outcome::gave_up);
     CHECK(tried.ids == std::vector<taut::idx>{0});
     CHECK(tried.reason.find("1 vertex (0) that the map winds around more than once") != std::string::npos);
 }

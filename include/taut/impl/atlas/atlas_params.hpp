@@ -6,19 +6,21 @@
 #include <vector>
 
 #include <taut/impl/atlas/flatten_charts.hpp>
-#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/atlas/segment.hpp>
 #include <taut/impl/packing/pack_params.hpp>
 
 namespace taut
 {
 
-/// Purpose of the charts of an atlas.
+/// Purpose of the charts of an atlas, or which are kept.
 enum class chart_preference
 {
     seams,   ///< few charts along short seams
     packing, ///< charts that fill squares well: more of them
-    one      ///< one chart a component, where it can be
+    one,     ///< one chart a component, where it can be
+    kept,    ///< those separated by `charts.seams`, flattened from `initial` if it is given
+    laid ///< those charts as they are in `initial`, moved, turned and scaled to one texel density alone; one that is
+         ///< mirrored there is mirrored back
 };
 
 /// Parameters of make_atlas(). Every field has a sensible default.
@@ -30,16 +32,13 @@ struct atlas_params
 
     chart_preference prefer = chart_preference::seams;
 
-    /// Where seams are liked. Not of charts that are kept; weights are not for `symmetric`.
-    impl::seam_wishes wishes = {};
+    /// How much seams avoid what is seen from outside, 0 to 1: 0.5 counts a length in a deep hollow about half, 1 next
+    /// to nothing. Occlusion is computed by rays from each vertex. Seams of charts that are kept stay where they are.
+    double hide_seams = 0;
 
-    /// True if the charts are those separated by `charts.seams`: they are flattened, from `initial` if it is given, and
-    /// packed.
-    bool keep_charts = false;
-
-    /// False if kept charts are laid as they are in `initial`, moved, turned and scaled to one texel density alone. One
-    /// that is mirrored there is mirrored back.
-    bool relax = true;
+    /// Edges that are bent by more than this, in degrees from 0 to 180, count a quarter as seams, and concave ones an
+    /// eighth; 180: none. `charts.weights` are further factors, from 0.001 to 1000; not for `symmetric` or `pinned`.
+    double crease_angle = 180;
 
     /// Initial map of kept and pinned charts, or their final one, one coordinate per corner; or empty.
     std::vector<std::array<vec2, 3>> initial = {};
@@ -54,15 +53,11 @@ struct atlas_params
     /// symmetry_error where there is no such plane.
     bool symmetric = false;
 
-    /// The tile that each triangle's chart is to be in, one number each, or empty. Charts cross from one to another no
-    /// further than `charts.seams` lets them: give the borders of groups as seams.
-    std::vector<idx> groups = {};
-
     /// True if charts that are copies of each other in space, turned and moved, lie on each other: each is a copy of
     /// the first one's map. They do not count as overlaps.
     bool stack = false;
 
-    pack_params packing = {}; ///< its limits are overruled
+    pack_params packing = {};
 
     /// Lower left corner of the first tile, integers. {0, -1} is for files whose v runs downwards: their coordinates
     /// are (u, -v), which is exact where 1 - v is not.
@@ -71,10 +66,8 @@ struct atlas_params
     /// Rounding of coordinates by the file format, such as to floats: the certificate is of the results. Null: none.
     vec2 (*stored)(vec2) = nullptr;
 
-    /// Limits of the whole call. Parts without a valid map by then fall back to planar-projection charts. The observer
-    /// is asked several times a second: progress::stage names the stage, progress::iteration counts the charts that are
-    /// done in it, progress::value is the mean energy of these, or the use of the squares.
-    run_limits limits = {};
+    /// Returns whether charts are kept.
+    bool keeps_charts() const { return prefer == chart_preference::kept || prefer == chart_preference::laid; }
 };
 
 } // namespace taut

@@ -15,6 +15,7 @@
 #include <taut/impl/atlas/chart_set.hpp>
 #include <taut/impl/atlas/cutting/way_prices.hpp>
 #include <taut/impl/atlas/seams/openness.hpp>
+#include <taut/impl/atlas/seams/seam_factors.hpp>
 #include <taut/impl/atlas/symmetry.hpp>
 #include <taut/impl/core/budget.hpp>
 
@@ -48,9 +49,9 @@ struct atlas_surface
     /// Computes `factors` and `open`.
     void weigh_seams()
     {
-        const seam_wishes& wishes = params.wishes;
+        const seam_wishes wishes{params.hide_seams, params.crease_angle, params.charts.weights};
         wishes.validate(facets.twin.size());
-        if (!wishes.any() || params.keep_charts) return;
+        if (!wishes.any() || params.keeps_charts()) return;
         if (wishes.hide > 0) open = vertex_openness(surface);
         factors = seam_factors(surface, facets, wishes, open);
     }
@@ -102,9 +103,8 @@ struct atlas_run
         params.tuning.rough = how == precise::rough;
         params.max_iterations = std::min(params.max_iterations, steps);
         params.initial = initial;
-        params.limits = limits("flatten");
         const double begin = clock.total();
-        auto flat = flatten_charts(device, charts, params);
+        auto flat = flatten_charts(device, charts, params, limits("flatten"));
         report.seconds.flatten += clock.total() - begin;
         usable = true;
         return flat;

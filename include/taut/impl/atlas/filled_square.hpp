@@ -29,14 +29,15 @@ class filled_square
 {
 public:
     /// uv: one per corner of the surface; price: what a seam counts, one a side. All are referred to, but for
-    /// `packing`.
+    /// `packing` and `limits`, those of each layout.
     filled_square(const mesh<triangle>& m, const facet_table& f, std::span<const vec2> uv,
-                  std::span<const double> price, pack_params packing)
+                  std::span<const double> price, pack_params packing, run_limits limits = {})
         : mesh_(m),
           facets_(f),
           uv_(uv),
           price_(price),
           packing_(std::move(packing)),
+          limits_(std::move(limits)),
           area_(area_of(m, 0, m.cell_count())),
           mark_(m.cells().size(), 0)
     {
@@ -158,7 +159,7 @@ private:
             outlines.first.push_back(static_cast<idx>(outlines.edges.size()));
             outlines.areas.push_back(one.area);
         }
-        return pack_outlined(uv_, outlines, packing_, effort).utilization;
+        return pack_outlined(uv_, outlines, packing_, limits_, effort).utilization;
     }
 
     /// Room that a chart keeps others from, as it were: the mean of its hull and of the square on the long side of its
@@ -242,6 +243,7 @@ private:
     std::span<const vec2> uv_;
     std::span<const double> price_;
     pack_params packing_;
+    run_limits limits_; // of each layout
     double area_;
     std::vector<char> mark_; // of triangles, 0 between calls
 };

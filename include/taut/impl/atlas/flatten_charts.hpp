@@ -61,16 +61,17 @@ struct flatten_params
     /// for which it is not valid get another start.
     std::span<const vec2> initial = {};
 
-    /// Limits of the whole call. The observer is asked after each step: progress::iteration counts finished charts,
-    /// progress::value is the mean energy of the current maps.
-    run_limits limits = {};
-
     /// Not for users: what tests and measurements set.
     impl::flatten_tuning tuning = {};
 
     /// Throws parameter_error that names the field.
     void validate() const;
 };
+
+} // namespace taut
+
+namespace taut::impl
+{
 
 /// Outcome of flattening one chart.
 enum class chart_outcome
@@ -81,11 +82,6 @@ enum class chart_outcome
     stopped,    ///< the time limit or the observer; the map is the best so far
     no_map      ///< there is no valid one: chart_report::reason
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 struct chart_report
 {
@@ -115,6 +111,8 @@ struct flatten_seconds
 /// Result of flatten_charts(): one map for all charts, and a report for each.
 struct flattened_charts
 {
+    using enum chart_outcome; // so that an outcome is flattened_charts::no_map, say
+
     std::vector<vec2> uv; ///< one per vertex of charts.surface, in units of the surface; (0, 0) where there is no map
     std::vector<impl::chart_report> charts;
     impl::flatten_seconds seconds;
@@ -133,8 +131,10 @@ namespace taut
 ///
 /// A chart is a disk or has holes; closed charts, those with handles and those with a flat triangle have no map. Its
 /// map does not depend on other charts. Every map that is returned as valid is certified in exact arithmetic.
-/// Throws parameter_error, device_error, build_error.
-impl::flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params = {});
+/// The observer is asked after each step: progress::iteration counts finished charts, progress::value is the mean
+/// energy of the current maps. Throws parameter_error, device_error, build_error.
+impl::flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params = {},
+                                      const run_limits& limits = {});
 
 } // namespace taut
 

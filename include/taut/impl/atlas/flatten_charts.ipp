@@ -20,7 +20,6 @@ void flatten_params::validate() const
     if (!(tolerance >= 1e-12 && tolerance <= 1)) throw parameter_error("tolerance", "must be 1e-12 to 1");
     if (max_iterations < 0) throw parameter_error("max_iterations", "must not be negative");
     if (!(tuning.largest >= 0)) throw parameter_error("largest", "must not be negative");
-    limits.validate();
 }
 
 } // namespace taut
@@ -32,11 +31,11 @@ namespace taut::impl
 class flattening
 {
 public:
-    flattening(queue& q, const chart_mesh& charts, const flatten_params& params)
+    flattening(queue& q, const chart_mesh& charts, const flatten_params& params, const run_limits& limits)
         : queue_(q),
           charts_(charts),
           params_(params),
-          clock_(params.limits.time_limit, params.limits.observer),
+          clock_(limits.time_limit, limits.observer),
           work_(u(charts.charts()))
     {
         result_.charts.resize(work_.size());
@@ -206,10 +205,10 @@ private:
     void map_large(std::size_t k)
     {
         chart_report& report = result_.charts[k];
-        parameterize_params params{.initial = given(k), .holes = true, .limits = {.time_limit = clock_.left()}};
+        parameterize_params params{.initial = given(k), .holes = true};
         // A chart that takes long on coarser levels already is none that could be flattened well.
         int steps = 0;
-        params.limits.observer = [&](const progress& p)
+        const auto ask = [&](const progress& p)
         {
             steps += p.iterate ? 1 : 0;
             return steps <= 4 * params_.max_iterations && proceed();
@@ -218,14 +217,14 @@ private:
         if (params_.tuning.rough)
         {
             params.start = start_method::barycentric;
-            params.barycentric.stretch_rounds = 1;
+            params.tuning.stretch_rounds = 1;
             params.precision = rough_precision(queue_);
             params.solve.stopping = rough_stopping();
             params.solve.stopping.max_iterations = params_.max_iterations;
         }
         try
         {
-            auto map = parameterize(queue_, work_[k].chart->surface, params);
+            auto map = parameterize(queue_, work_[k].chart->surface, params, {clock_.left(), ask});
             report.iterations = static_cast<int>(map.report.solve.iterations);
             report.reason = map.reason();
             report.outcome = !map                                            ? chart_outcome::no_map
@@ -297,13 +296,15 @@ private:
 namespace taut
 {
 
-impl::flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params)
+impl::flattened_charts flatten_charts(queue& q, const chart_mesh& charts, const flatten_params& params,
+                                      const run_limits& limits)
 {
     params.validate();
+    limits.validate();
     if (!params.initial.empty() && params.initial.size() != charts.surface.points().size())
         throw parameter_error("initial", "must have one point a vertex of the chart mesh, or none");
     const impl::queue_counters before = q.counters();
-    impl::flattened_charts result = impl::flattening(q, charts, params).run();
+    impl::flattened_charts result = impl::flattening(q, charts, params, limits).run();
     result.counters = impl::counted_since(before, q.counters());
     return result;
 }

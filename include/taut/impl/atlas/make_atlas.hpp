@@ -7,6 +7,7 @@
 
 #include <taut/impl/atlas/atlas_params.hpp>
 #include <taut/impl/atlas/atlas_report.hpp>
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/mesh/validate.hpp>
 #include <taut/impl/packing/pack.hpp>
 
@@ -54,11 +55,13 @@ namespace taut
 /// of them at once on the queue's device, packs them, and certifies the result in exact arithmetic.
 ///
 /// m: an oriented manifold without flat triangles; it may have several parts, be closed, have handles and holes.
-///    repair_surface() (repair/repair_surface.hpp) makes one of other input. A run that the time limit or the observer
-///    ends returns the current charts, packed and certified all the same; atlas_report::complete is false. Throws
-///    mesh_error, symmetry_error, parameter_error, device_error,
-/// build_error.
-atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params = {});
+///    repair_surface() (repair/repair_surface.hpp) makes one of other input.
+/// limits: a run that they end returns the current charts, packed and certified all the same, and planar projections of
+///    parts without a valid map; atlas_report::complete is false. The observer is asked several times a second:
+///    progress::stage names the stage, progress::iteration counts the charts that are done in it, progress::value is
+///    the mean energy of these, or the use of the squares.
+/// Throws mesh_error, symmetry_error, parameter_error, device_error, build_error.
+atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params = {}, const run_limits& limits = {});
 
 } // namespace taut
 

@@ -136,14 +136,18 @@ inline bool pins_any(const atlas_params& params)
 /// Throws parameter_error where parameters contradict each other, or are of another surface.
 inline void require(const mesh<triangle>& m, const atlas_params& params)
 {
-    if (params.symmetric && (params.keep_charts || !params.pinned.empty()))
+    if (params.symmetric && (params.keeps_charts() || !params.pinned.empty()))
         throw parameter_error("symmetric", "makes charts; none can be kept or pinned");
     if (params.symmetric && params.stack)
         throw parameter_error("stack", "is of copies, and mirror images are none; leave out `symmetric`");
-    if (!params.wishes.weights.empty() && (params.symmetric || !params.pinned.empty()))
+    if (!params.charts.weights.empty() && (params.symmetric || !params.pinned.empty()))
         throw parameter_error("weights", "are of the whole surface; leave out `symmetric` and `pinned`");
-    if (!params.groups.empty() && params.groups.size() != m.cells().size())
+    const auto& groups = params.packing.groups;
+    const auto& densities = params.packing.densities;
+    if (!groups.empty() && groups.size() != m.cells().size())
         throw parameter_error("groups", "empty or one tile a triangle");
+    if (!densities.empty() && densities.size() != m.cells().size())
+        throw parameter_error("densities", "empty or one number a triangle");
     if (params.stack && !params.pinned.empty())
         throw parameter_error("stack", "is of charts that are placed; pin none");
     if (!params.pinned.empty() && params.packing.aspect != 1)
@@ -152,9 +156,9 @@ inline void require(const mesh<triangle>& m, const atlas_params& params)
 }
 
 /// make_atlas() of a surface whose areas, and products of them, do not overflow.
-inline atlas atlas_in_range(queue& q, const mesh<triangle>& m, const atlas_params& params)
+inline atlas atlas_in_range(queue& q, const mesh<triangle>& m, const atlas_params& params, const run_limits& limits)
 {
-    atlas_run run{q, params.limits};
+    atlas_run run{q, limits};
     atlas_surface whole{m, params};
     validate(m, whole.facets, atlas_requirements);
     std::optional<pinned_charts> pins;
@@ -191,14 +195,15 @@ inline atlas atlas_in_range(queue& q, const mesh<triangle>& m, const atlas_param
 namespace taut
 {
 
-atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params)
+atlas make_atlas(queue& q, const mesh<triangle>& m, const atlas_params& params, const run_limits& limits)
 {
+    limits.validate();
     impl::require(m, params);
     const double unit = impl::unit_scale(m);
-    if (!(unit > 1e70 || unit < 1e-70)) return impl::atlas_in_range(q, m, params);
+    if (!(unit > 1e70 || unit < 1e-70)) return impl::atlas_in_range(q, m, params, limits);
     atlas_params of_scaled = params;
     of_scaled.packing.texels_per_unit /= unit;
-    atlas made = impl::atlas_in_range(q, impl::scaled(m, unit), of_scaled);
+    atlas made = impl::atlas_in_range(q, impl::scaled(m, unit), of_scaled, limits);
     made.charts.surface = impl::scaled(made.charts.surface, 1 / unit);
     made.layout.scale *= unit;
     for (auto& place : made.layout.places) place.scale *= unit;

@@ -22,8 +22,7 @@ inline chart_set segmented_charts(atlas_run& run, const atlas_surface& of)
 {
     run.usable = true; // whatever there is by the end of the time is laid as it is seen
     auto params = of.params.charts;
-    if (!of.factors.empty()) params.weights = of.factors;
-    params.limits = run.limits("charts");
+    params.weights = of.factors;
     // What takes more steps at first is mostly cut after all of them.
     constexpr int few = 25;
     const auto first_maps = [&run](const chart_mesh& charts, std::span<const vec2> start)
@@ -31,7 +30,7 @@ inline chart_set segmented_charts(atlas_run& run, const atlas_surface& of)
         return run.flatten(charts, start, atlas_run::precise::usual,
                            start.empty() ? few : std::numeric_limits<int>::max());
     };
-    auto made = segment_surface(of.surface, of.facets, maps_by(first_maps), params);
+    auto made = segment_surface(of.surface, of.facets, maps_by(first_maps), params, run.limits("charts"));
     if (!run.goes_on()) return cut_unfinished(run, of, std::move(made.laid), made.crosses);
     chart_set set = cut(of, std::move(made.laid));
     mend(run, of, set, unfit(set));
@@ -183,7 +182,7 @@ inline chart_set kept_charts(atlas_run& run, const atlas_surface& of)
                         { initial[v] = of.params.initial[cell][corner]; });
     chart_set set{std::move(seam), std::move(charts), std::move(initial), {}};
     set.energy.resize(static_cast<std::size_t>(set.charts.charts()));
-    if (!of.params.relax && !set.uv.empty())
+    if (of.params.prefer == chart_preference::laid && !set.uv.empty())
     {
         lay_as_given(run, of, set);
         return set;
@@ -197,9 +196,9 @@ inline chart_set kept_charts(atlas_run& run, const atlas_surface& of)
 inline chart_set make_charts(atlas_run& run, atlas_surface& of)
 {
     of.weigh_seams();
-    chart_set set = of.params.keep_charts ? kept_charts(run, of)
-                    : of.params.symmetric ? symmetric_charts(run, of)
-                                          : free_charts(run, of);
+    chart_set set = of.params.keeps_charts() ? kept_charts(run, of)
+                    : of.params.symmetric    ? symmetric_charts(run, of)
+                                             : free_charts(run, of);
     run.report.seconds.charts = run.clock.lap() - run.report.seconds.flatten;
     return set;
 }

@@ -56,13 +56,16 @@ public:
         params.charts.together = together = rest_.by_side(params.charts.together);
         params.pinned.clear();
         params.initial.clear();
-        params.groups.clear();
+        params.packing.groups.clear();
+        params.packing.densities.clear();
         for (const idx c : rest_.triangles)
         {
             params.initial.push_back(params_.initial[u(c)]);
-            if (!params_.groups.empty()) params.groups.push_back(params_.groups[u(c)]);
+            const auto& given = params_.packing;
+            if (!given.groups.empty()) params.packing.groups.push_back(given.groups[u(c)]);
+            if (!given.densities.empty()) params.packing.densities.push_back(given.densities[u(c)]);
         }
-        if (!params_.keep_charts) params.initial.clear();
+        if (!params_.keeps_charts()) params.initial.clear();
         const auto sides = facets(pinned_.charts.surface);
         for (std::size_t k = 0; k < tiles_.size(); ++k)
             for (idx s = 3 * pinned_.charts.first_cell[k]; s < 3 * pinned_.charts.first_cell[k + 1]; ++s)

@@ -66,7 +66,7 @@ inline convex_polygons convex(const atlas_surface& of, const chart_mesh& charts)
 inline void make_convex(const atlas_run& run, const atlas_surface& of, chart_set& set, const convex_polygons& polygons)
 {
     const chart_mesh& charts = set.charts;
-    if (of.params.keep_charts && !of.params.relax)
+    if (of.params.prefer == chart_preference::laid)
     {
         settle_charts(charts, polygons, set.uv, {});
         return;
@@ -100,20 +100,20 @@ inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
     constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
     constexpr idx few = 16;                               // charts
     const auto& params = of.params;
-    const auto& packing = params.packing;
-    if (params.prefer != chart_preference::seams || params.keep_charts || params.symmetric || params.stack ||
-        !packing.walls.empty() || packing.on_grid() || packing.tiles > 1)
+    auto packing = params.packing;
+    packing.groups.clear();
+    packing.densities.clear();
+    if (params.prefer != chart_preference::seams || params.symmetric || params.stack || !packing.walls.empty() ||
+        packing.on_grid() || packing.tiles > 1)
         return;
     if (!run.report.reason.empty() || !run.report.complete || set.charts.charts() > few) return;
     double area = 0;
     for (const double a : ideal_elements<triangle>(of.surface).measure) area += a;
     const double longest = least_length * std::sqrt(area) + by_seams * length_of_seams(of.surface, of.facets, set.seam);
     auto flat = laid(set);
-    auto quietly = packing;
     const run_limits left = run.limits("pack");
-    quietly.limits = {left.time_limit, {}};
     const auto prices = of.prices();
-    flat.seam = filled_square(of.surface, of.facets, flat.uv, prices, quietly)
+    flat.seam = filled_square(of.surface, of.facets, flat.uv, prices, packing, {left.time_limit, {}})
                     .run(set.seam, longest, [&left] { return left.observer({}); });
     if (flat.seam != set.seam)
     {
@@ -138,9 +138,13 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     made.polygons = convex(of, charts); // there is room for it: nothing is beside a chart yet
     if (made.polygons.size() > 0) make_convex(run, of, set, made.polygons);
     auto params = of.params.packing;
-    params.limits = run.limits("pack");
-    params.densities = by_chart(charts, grown);
-    params.groups = by_chart(charts, of.params.groups);
+    params.groups = by_chart(charts, params.groups);
+    params.densities = by_chart(charts, params.densities);
+    const auto factors = by_chart(charts, grown);
+    if (params.densities.empty())
+        params.densities = factors;
+    else
+        for (std::size_t k = 0; k < factors.size(); ++k) params.densities[k] *= factors[k];
     auto& stacks = made.stacks;
     if (of.params.stack)
     {
@@ -160,7 +164,8 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
         params.densities = stacks->of_leaders(params.densities);
         params.groups = stacks->of_leaders(params.groups);
     }
-    made.layout = pack_outlined(set.uv, stacks ? stacks->first_outlines(made.outlines) : made.outlines, params);
+    made.layout = pack_outlined(set.uv, stacks ? stacks->first_outlines(made.outlines) : made.outlines, params,
+                                run.limits("pack"));
     if (stacks) made.layout.places = stacks->of_all(made.layout.places);
     report.complete = report.complete && made.layout.complete;
     made.uv = made.layout.apply(set.uv, charts.first_vertex);
@@ -224,7 +229,7 @@ inline placed_charts settled(atlas_run& run, const atlas_surface& of, chart_set&
             for (idx i = set.charts.first_cell[k]; i < set.charts.first_cell[k + 1]; ++i)
                 grown[static_cast<std::size_t>(set.charts.cell_origins[static_cast<std::size_t>(i)])] *= factor;
         }
-        if (round == 0 && !of.params.keep_charts && run.report.complete) keep_touching_apart(run, set, placed, bad);
+        if (round == 0 && !of.params.keeps_charts() && run.report.complete) keep_touching_apart(run, set, placed, bad);
         idx largest = 0; // of those that are left
         for (std::size_t k = 0; k < bad.size(); ++k)
             if (bad[k]) largest = std::max(largest, set.charts.first_cell[k + 1] - set.charts.first_cell[k]);

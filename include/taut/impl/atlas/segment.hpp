@@ -62,10 +62,6 @@ struct segment_params
     /// What a unit of length of a seam counts along each side, the same on both sides of an edge; or empty: 1.
     std::span<const double> weights = {};
 
-    /// Limits of the whole call, after which the current charts are returned, or pieces without maps. The observer is
-    /// asked before each round and within it.
-    run_limits limits = {};
-
     /// Not for users: what tests and measurements set.
     impl::segment_tuning tuning = {};
 
@@ -74,7 +70,6 @@ struct segment_params
     {
         if (!(max_distortion > 4)) throw parameter_error("max_distortion", "must be above 4, that of no distortion");
         if (!(mean_distortion > 4)) throw parameter_error("mean_distortion", "must be above 4, that of no distortion");
-        limits.validate();
         tuning.validate();
     }
 };
@@ -135,7 +130,7 @@ struct uncut_segmentation
 };
 
 uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
-                                   const segment_params& params);
+                                   const segment_params& params, const run_limits& limits);
 
 segmentation cut_apart(const mesh<triangle>& m, const facet_table& f, uncut_segmentation made,
                        const segment_params& params);
@@ -185,12 +180,14 @@ namespace taut
 ///    take a second argument, std::span<const vec2>, the initial map, and report settled() of charts: then it may
 ///    return unfinished maps, as many charts are cut anyway. Remaining charts that are not settled are passed again
 ///    with their maps.
+/// limits: then the current charts are returned, or pieces without maps. The observer is asked before each round and
+///    within it
 /// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).
 template <class Flatten>
 segmentation segment(const mesh<triangle>& m, const impl::facet_table& f, Flatten&& flatten,
-                     const segment_params& params = {})
+                     const segment_params& params = {}, const run_limits& limits = {})
 {
-    return impl::cut_apart(m, f, impl::segment_surface(m, f, impl::maps_by(flatten), params), params);
+    return impl::cut_apart(m, f, impl::segment_surface(m, f, impl::maps_by(flatten), params, limits), params);
 }
 
 } // namespace taut

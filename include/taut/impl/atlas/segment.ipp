@@ -247,10 +247,11 @@ inline bool cut_round(surface_charts& all)
 }
 
 uncut_segmentation segment_surface(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
-                                   const segment_params& params)
+                                   const segment_params& params, const run_limits& limits)
 {
     params.validate();
-    surface_charts all(m, f, flatten, params);
+    limits.validate();
+    surface_charts all(m, f, flatten, params, limits);
     cut_by_estimate(all);
     if (all.clock.over()) // pieces without maps, and without records of their own
     {

@@ -112,11 +112,10 @@ inline void segment_rest(atlas_run& run, const atlas_surface& of, std::span<cons
     params.tuning.least_fill = 0;
     params.tuning.unite_rounds = std::max(params.tuning.unite_rounds, 6); // few charts, whatever they are like
     params.max_distortion = std::min(params.max_distortion, std::max(4.2, params.mean_distortion));
-    params.limits = run.limits("charts");
     // Of large charts that are cut anyway, and of those that many steps would bring no further.
     const auto maps = [&run](const chart_mesh& charts, std::span<const vec2> start)
     { return run.flatten(charts, start, start.empty() ? atlas_run::precise::rough : atlas_run::precise::usual); };
-    const auto made = segment_surface(part.charts.surface, f, maps_by(maps), params);
+    const auto made = segment_surface(part.charts.surface, f, maps_by(maps), params, run.limits("charts"));
     for (std::size_t s = 0; s < made.laid.seam.size(); ++s)
         if (made.laid.seam[s]) seam[part.origin(s)] = 1;
 }

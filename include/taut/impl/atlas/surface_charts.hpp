@@ -35,12 +35,12 @@ struct chart_record
 struct surface_charts
 {
     surface_charts(const mesh<triangle>& m, const facet_table& f, const charts_to_maps& flatten,
-                   const segment_params& how)
+                   const segment_params& how, const run_limits& limits)
         : surface(m),
           facets(f),
           map_charts(flatten),
           params(how),
-          clock(how.limits.time_limit, how.limits.observer),
+          clock(limits.time_limit, limits.observer),
           laid{std::vector<char>(f.twin.size(), 0), std::vector<vec2>(f.twin.size(), vec2(0.0)),
                std::vector<double>(m.cells().size(), infinite)},
           chart(m.cells().size(), 0),

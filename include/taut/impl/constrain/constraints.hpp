@@ -77,6 +77,23 @@ public:
         return hold(std::array{v}, static_cast<std::uint8_t>(1u << k), [&](std::size_t) { return x; });
     }
 
+    /// Adds the pins and springs of a file (io::read_pins()). Throws constraint_error.
+    template <class Pin>
+    constraints& add(const std::vector<Pin>& pins)
+    {
+        for (const Pin& p : pins)
+        {
+            if (!p.hard())
+                spring(p.vertex, p.target, p.weight);
+            else if (p.held == all)
+                pin(p.vertex, p.target);
+            else
+                for (int k = 0; k < D; ++k)
+                    if ((p.held >> k & 1u) != 0) pin(p.vertex, k, p.target[k]);
+        }
+        return *this;
+    }
+
     constraints& pin_u(idx v, double u) { return pin(v, 0, u); }
     constraints& pin_v(idx v, double value) { return pin(v, 1, value); }
 

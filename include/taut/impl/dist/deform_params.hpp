@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
-#include <taut/impl/core/observer.hpp>
 #include <taut/impl/dist/constraints.hpp>
 #include <taut/impl/dist/solver_params.hpp>
 #include <taut/impl/energy/any_energy.hpp>
@@ -17,7 +16,7 @@ namespace taut::dist
 {
 
 /// Parameters of deform() and of sessions over many processes: those of taut::deform_params that are supported. All
-/// processes give the same but for `constraints`, `initial`, `queue` and `limits`.
+/// processes give the same but for `constraints`, `initial` and `queue`.
 template <class Element>
 struct deform_params
 {
@@ -53,14 +52,9 @@ struct deform_params
     /// Queue of this process. Without one: processes of a machine take its GPUs in turn, or share its CPU.
     std::optional<taut::queue> queue = {};
 
-    /// Time and observer of a call. The first process whose limit is reached or whose observer refuses ends the run of
-    /// all.
-    run_limits limits = {};
-
     /// Throws parameter_error that names the field.
     void validate() const
     {
-        limits.validate();
         solver.validate();
         if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
             throw parameter_error("weights", "must be uniform or measure");

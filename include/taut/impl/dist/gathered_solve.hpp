@@ -162,8 +162,7 @@ private:
                                          .weights = params.weights,
                                          .parameters = params.parameters,
                                          .shapes = params.shapes,
-                                         .precision = params.precision,
-                                         .limits = limits};
+                                         .precision = params.precision};
         how.solve.stopping.gradient_tolerance = params.solve.stopping.gradient_tolerance;
         for (const auto& d : data)
         {
@@ -185,7 +184,7 @@ private:
                 if ((vertices[v].marks >> k & 1U) != 0)
                     how.constraints.pin(static_cast<idx>(v), k, vertices[v].target[k]);
         for (const auto& s : springs) how.constraints.spring(static_cast<idx>(s.number), s.target, s.weight);
-        auto found = taut::deform(q, m, how);
+        auto found = taut::deform(q, m, how, limits);
         if (found.report.outcome != outcome::valid || !found.report.pins_held) return std::nullopt;
         return found;
     }

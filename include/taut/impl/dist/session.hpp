@@ -61,17 +61,15 @@ public:
     /// Replaces all constraints. Throws constraint_error, with nothing changed.
     session& constrain(const constraints<Element>& wanted);
 
-    /// Brings pins to their targets and minimises, from the last shape. Without an argument: the limits of the
-    /// parameters.
-    result<Element> solve();
-    result<Element> solve(const run_limits& limits);
+    /// Brings pins to their targets and minimises, from the last shape. The first process whose limit is reached or
+    /// whose observer refuses ends the call of all.
+    result<Element> solve(const run_limits& limits = {});
 
     /// The state of the session, for tests and measurements.
     impl::shape_body<Element>& body() { return *body_; }
 
 private:
     std::unique_ptr<impl::shape_body<Element>> body_;
-    run_limits limits_;
 };
 
 /// Deforms a volume, or a mesh of the plane, that the processes of a communicator have in pieces, with as little
@@ -80,9 +78,10 @@ private:
 /// by elements alone whose vertices are all pinned, and a shape to begin with that has inverted elements is gave_up.
 /// Collective; throws as session does.
 template <class Element>
-result<Element> deform(MPI_Comm comm, const mesh_piece<Element>& piece, const deform_params<Element>& params = {})
+result<Element> deform(MPI_Comm comm, const mesh_piece<Element>& piece, const deform_params<Element>& params = {},
+                       const run_limits& limits = {})
 {
-    return session<Element>(comm, piece, params).solve();
+    return session<Element>(comm, piece, params).solve(limits);
 }
 
 } // namespace taut::dist

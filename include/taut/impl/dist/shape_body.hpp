@@ -331,17 +331,16 @@ private:
     void minimise(agreed_limits& clock, report& r)
     {
         auto how = params_.solve;
-        how.stopping.time_limit = taut::impl::budget::unlimited; // clocks differ
         // Set-ups of the preconditioner cost as much as ten products, so directions are more exact than elsewhere.
         how.tuning.newton.pcg.gain = std::min(how.tuning.newton.pcg.gain, 0.05);
         how.tuning.newton.pcg.max_steps = std::max(how.tuning.newton.pcg.max_steps, longest_system / 4);
         const int before = r.steps;
-        const auto found = solve::minimize(*objective_, x_, how,
-                                           [&](progress p)
-                                           {
-                                               p.iteration += before;
-                                               return clock.proceed(p);
-                                           });
+        const auto ask = [&](progress p)
+        {
+            p.iteration += before;
+            return clock.proceed(p);
+        };
+        const auto found = solve::minimize(*objective_, x_, how, {.observer = ask}); // no time limit: clocks differ
         r.steps += found.iterations;
         r.products += found.products;
         r.energy = found.value;

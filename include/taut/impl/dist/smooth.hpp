@@ -8,6 +8,7 @@
 #include <mpi.h>
 
 #include <taut/impl/constrain/smooth_boundary.hpp>
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/dist/session.hpp>
 #include <taut/impl/processes/labelled_face.hpp>
 
@@ -15,7 +16,7 @@ namespace taut::dist
 {
 
 /// Parameters of smooth() over many processes, those of taut::smooth_params that are supported. All processes give the
-/// same but for `fixed`, `regions`, `faces`, `initial`, `queue` and `limits`.
+/// same but for `fixed`, `regions`, `faces`, `initial` and `queue`.
 struct smooth_params
 {
     /// Treatment of the boundary.
@@ -42,12 +43,10 @@ struct smooth_params
     solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
     impl::solver_params solver = {};
     std::optional<taut::queue> queue = {};
-    run_limits limits = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
-        limits.validate();
         solver.validate();
         if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
     }
@@ -57,7 +56,8 @@ struct smooth_params
 /// its elements, without inverting one. Connectivity is kept. A mesh with inverted elements is gave_up. Collective;
 /// throws as session does.
 template <class Element>
-result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params = {});
+result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params = {},
+                       const run_limits& limits = {});
 
 } // namespace taut::dist
 

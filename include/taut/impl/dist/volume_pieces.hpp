@@ -9,6 +9,7 @@
 
 #include <mpi.h>
 
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/dist/session.hpp>
 
 namespace taut::dist::impl
@@ -69,6 +70,7 @@ private:
 /// of groups that stay where they are. Ids of constraints are places of vertices in the file. Throws as
 /// volume_pieces and session do.
 report deform(MPI_Comm comm, const std::filesystem::path& input, const std::filesystem::path& output,
-              const deform_params<tetrahedron>& params = {}, const std::vector<std::string>& fixed = {});
+              const deform_params<tetrahedron>& params = {}, const std::vector<std::string>& fixed = {},
+              const run_limits& limits = {});
 
 } // namespace taut::dist

@@ -15,6 +15,11 @@ namespace taut
 /// rim; the displacement of the region from it is the detail.
 struct feature
 {
+    feature() = default;
+
+    /// Takes a region. Throws region_error for one whose rim encloses no area: its base has no normal.
+    explicit feature(impl::surface_region of);
+
     impl::surface_region
         region;           ///< edges between vertices of the rim are halved: their middles are vertices -1 of the source
     vec3 centre{0.0};     ///< mean of the rim by length
@@ -30,33 +35,30 @@ struct feature
     }
 };
 
-/// Makes a feature of a region. Throws region_error for a region whose rim encloses no area: its base has no normal.
-inline feature make_feature(impl::surface_region region)
+inline feature::feature(impl::surface_region of) : region(impl::split_chords(std::move(of)))
 {
-    feature f{.region = impl::split_chords(std::move(region))};
-    const auto& rim = f.region.rim;
+    const auto& rim = region.rim;
     const auto at = [&](std::size_t i) -> const vec3&
-    { return f.region.surface.points()[static_cast<std::size_t>(rim[i % rim.size()])]; };
+    { return region.surface.points()[static_cast<std::size_t>(rim[i % rim.size()])]; };
     double length = 0;
     for (std::size_t i = 0; i < rim.size(); ++i)
     {
         const double edge = glm::distance(at(i), at(i + 1));
-        f.centre += edge / 2 * (at(i) + at(i + 1));
+        centre += edge / 2 * (at(i) + at(i + 1));
         length += edge;
     }
-    f.centre /= length;
+    centre /= length;
     vec3 area(0.0); // twice the vector area of the rim (Newell)
     for (std::size_t i = 0; i < rim.size(); ++i)
     {
-        area += glm::cross(at(i) - f.centre, at(i + 1) - f.centre);
-        f.radius = std::max(f.radius, glm::distance(at(i), f.centre));
+        area += glm::cross(at(i) - centre, at(i + 1) - centre);
+        radius = std::max(radius, glm::distance(at(i), centre));
     }
     if (!(glm::length(area) > 1e-6 * length * length))
         throw region_error(
             region_error::flat, {},
             "the rim of the region encloses no area, so that its base has no direction; choose another one");
-    f.normal = glm::normalize(area);
-    return f;
+    normal = glm::normalize(area);
 }
 
 } // namespace taut

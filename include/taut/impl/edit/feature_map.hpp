@@ -12,20 +12,6 @@
 namespace taut::impl
 {
 
-struct feature_map_params
-{
-    idx resolution = 512; ///< texels along the longer side, 8 to 8192
-    idx margin = 4;       ///< texels by which the map is continued beyond the rim, 2 or more
-
-    /// Throws parameter_error that names the field.
-    void validate() const
-    {
-        if (resolution < 8 || resolution > 8192) throw parameter_error("resolution", "must be from 8 to 8192");
-        if (margin < 2 || 4 * margin > resolution)
-            throw parameter_error("margin", "must be 2 or more, and a quarter of the resolution at most");
-    }
-};
-
 /// Geometry image of a feature: positions (not heights, so that overhangs are represented) over a map of it to the
 /// plane: paper, section 4.1. Positions are in the frame of the base: along its two axes and its normal, from its
 /// centre.
@@ -68,10 +54,10 @@ std::vector<vec3> sample(queue& q, const feature_map& map, std::span<const vec2>
 namespace taut
 {
 
-/// Rasterizes a feature over a map of it, on the device. uv: one per vertex of the feature's region, injective. Throws
+/// Rasterizes a feature over a map of it, on the device. uv: one per vertex of the feature's region, injective.
+/// resolution: texels along the longer side, 8 to 8192. The map is continued by some texels beyond the rim. Throws
 /// parameter_error, device_error.
-impl::feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv,
-                                   const impl::feature_map_params& params = {});
+impl::feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv, idx resolution = 512);
 
 } // namespace taut
 

@@ -68,7 +68,7 @@ std::vector<vec3> sample(queue& q, const feature_map& map, std::span<const vec2>
 }
 
 /// A map without values that has the places of a feature, and a margin around them.
-inline feature_map empty_map(std::span<const vec2> uv, const feature_map_params& params)
+inline feature_map empty_map(std::span<const vec2> uv, idx resolution, idx margin)
 {
     vec2 low = uv[0], high = uv[0];
     for (const vec2& p : uv)
@@ -78,10 +78,10 @@ inline feature_map empty_map(std::span<const vec2> uv, const feature_map_params&
     }
     feature_map map;
     const vec2 extent = high - low;
-    map.texel = std::max(extent.x, extent.y) / static_cast<double>(params.resolution - 2 * params.margin);
-    map.low = low - map.texel * params.margin;
-    map.width = static_cast<idx>(std::ceil(extent.x / map.texel)) + 2 * params.margin;
-    map.height = static_cast<idx>(std::ceil(extent.y / map.texel)) + 2 * params.margin;
+    map.texel = std::max(extent.x, extent.y) / static_cast<double>(resolution - 2 * margin);
+    map.low = low - map.texel * margin;
+    map.width = static_cast<idx>(std::ceil(extent.x / map.texel)) + 2 * margin;
+    map.height = static_cast<idx>(std::ceil(extent.y / map.texel)) + 2 * margin;
     return map;
 }
 
@@ -104,15 +104,15 @@ inline void measure_round_trip(feature_map& map, std::span<const vec3> sampled, 
 namespace taut
 {
 
-impl::feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv,
-                                   const impl::feature_map_params& params)
+impl::feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv, idx resolution)
 {
-    params.validate();
+    if (resolution < 8 || resolution > 8192) throw parameter_error("resolution", "must be from 8 to 8192");
+    const idx margin = std::min<idx>(4, resolution / 4);
     const auto& surface = part.region.surface;
     if (uv.size() != surface.points().size())
         throw parameter_error("uv", std::to_string(uv.size()) + " places for " +
                                         std::to_string(surface.points().size()) + " vertices; give one per vertex");
-    impl::feature_map map = impl::empty_map(uv, params);
+    impl::feature_map map = impl::empty_map(uv, resolution, margin);
     const mat3 to_frame = glm::transpose(part.frame());
     std::vector<vec2> corners;
     std::vector<float> positions;
@@ -153,7 +153,7 @@ impl::feature_map make_feature_map(queue& q, const feature& part, std::span<cons
                 {"uv", places},
                 {"positions", values},
                 {"texels", texels}});
-    for (idx round = 0; round < params.margin; ++round)
+    for (idx round = 0; round < margin; ++round)
     {
         go_on(all, {{"width", map.width}, {"height", map.height}, {"from", texels}, {"to", next}});
         texels.swap(next);

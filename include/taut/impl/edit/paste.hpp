@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <memory>
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/edit/feature.hpp>
 #include <taut/impl/edit/paste_error.hpp>
 #include <taut/impl/edit/paste_params.hpp>
@@ -27,7 +29,7 @@ namespace taut
 /// and factors the systems of the fields that bend both sides of the seam. pose() then translates, rotates and scales
 /// the attached feature, at the cost of back-substitutions and kernels.
 ///
-///     taut::paste p(queue, target, taut::make_feature(taut::geodesic_disk(source, v, radius)), onto);
+///     taut::paste p(queue, target, taut::feature(taut::geodesic_disk(source, v, radius)), onto);
 ///     p.pose({.turn = 0.3, .softness = 0.5});
 ///     const auto result = p.surface();                // to be written, or the target of the next one
 ///
@@ -41,8 +43,10 @@ public:
     using cell = mesh<triangle>::cell;
 
     /// Pastes a feature at vertex `onto`. Throws region_error where its neighbourhood is no disk, paste_error where the
-    /// rim does not fit there, parameter_error, mesh_error, device_error.
-    paste(queue& q, mesh<triangle> target, feature part, idx onto, const paste_params& params = {});
+    /// rim does not fit there, parameter_error, mesh_error, device_error. limits: of the map of the feature to the
+    /// target, for the first soft pose: a rim that is hard to fit takes an untangling, which may not end.
+    paste(queue& q, mesh<triangle> target, feature part, idx onto, const paste_params& params = {},
+          const run_limits& limits = {.time_limit = std::chrono::seconds(20)});
     paste(paste&&) noexcept;
     paste& operator=(paste&&) noexcept;
     ~paste();
@@ -76,6 +80,9 @@ public:
     impl::similarity_transform transform() const;
 
     const impl::paste_report& report() const;
+
+    /// Measures the result: whether it is manifold, its boundary, degenerate triangles, angles across the rim.
+    impl::seam_quality measure_seam() const;
 
     /// New self-intersections: pairs of triangles of the result that meet elsewhere than in what they share, and did
     /// not in the target or in the feature; exact (see taut::self_intersections).

@@ -9,8 +9,9 @@
 namespace taut
 {
 
-paste::paste(queue& q, mesh<triangle> target, feature part, idx onto, const paste_params& params)
-    : body_(std::make_unique<impl::pasted>(q, std::move(target), std::move(part), onto, params))
+paste::paste(queue& q, mesh<triangle> target, feature part, idx onto, const paste_params& params,
+             const run_limits& limits)
+    : body_(std::make_unique<impl::pasted>(q, std::move(target), std::move(part), onto, params, limits))
 {
 }
 
@@ -81,6 +82,10 @@ impl::similarity_transform paste::transform() const
 const impl::paste_report& paste::report() const
 {
     return body_->report();
+}
+impl::seam_quality paste::measure_seam() const
+{
+    return impl::measure_seam(surface(), first_gap(), first_feature());
 }
 std::vector<std::array<idx, 2>> paste::self_intersections() const
 {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <chrono>
 #include <cmath>
 
 #include <taut/impl/core/error.hpp>
-#include <taut/impl/core/observer.hpp>
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/edit/rbf_basis.hpp>
 
@@ -69,10 +67,6 @@ struct paste_params
     /// under the rim are replaced.
     double reach = 1.8;
 
-    /// Limits of the map of the feature to the target, for the first soft pose: a rim that is hard to fit takes an
-    /// untangling, which may not end.
-    run_limits limits = {.time_limit = std::chrono::seconds(20)};
-
     /// Not for users: what tests and measurements set.
     impl::paste_tuning tuning = {};
 
@@ -81,7 +75,6 @@ struct paste_params
     {
         pose.validate();
         if (!(reach >= 1.2) || !std::isfinite(reach)) throw parameter_error("reach", "must be 1.2 or more");
-        limits.validate();
         tuning.validate();
     }
 };

@@ -81,18 +81,13 @@ inline std::vector<std::array<idx, 2>> folded_edges(const mesh<triangle>& m, idx
     return pairs;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
 /// Measures the result of a paste: triangles from first_gap on are of the gap, from first_feature on of the feature.
-inline impl::seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx first_feature)
+inline seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, idx first_feature)
 {
-    impl::seam_quality q;
-    const auto sides = impl::facets(m);
-    q.manifold = sides.oriented() && impl::pinched_vertices(m, sides).empty();
-    q.boundary_edges = static_cast<idx>(std::count(sides.twin.begin(), sides.twin.end(), impl::facet_table::boundary));
+    seam_quality q;
+    const auto sides = facets(m);
+    q.manifold = sides.oriented() && pinched_vertices(m, sides).empty();
+    q.boundary_edges = static_cast<idx>(std::count(sides.twin.begin(), sides.twin.end(), facet_table::boundary));
     std::vector<vec3> normals;
     double smallest = 180;
     for (idx f = 0; f < m.cell_count(); ++f)
@@ -104,7 +99,7 @@ inline impl::seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, i
         for (std::size_t k = 0; k < 3; ++k)
         {
             const vec3 a = x[(k + 1) % 3] - x[k], b = x[(k + 2) % 3] - x[k];
-            smallest = std::min(smallest, impl::degrees_between(a, b));
+            smallest = std::min(smallest, degrees_between(a, b));
         }
     }
     q.smallest_angle = smallest;
@@ -114,8 +109,8 @@ inline impl::seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, i
         const idx twin = sides.twin[static_cast<std::size_t>(s)];
         if (twin < 0 || twin > s) continue; // an edge once, from the later side
         const vec3 &a = normals[static_cast<std::size_t>(s / 3)], &b = normals[static_cast<std::size_t>(twin / 3)];
-        const double angle = impl::degrees_between(a, b);
-        if (angle > impl::fold_angle) ++q.folded;
+        const double angle = degrees_between(a, b);
+        if (angle > fold_angle) ++q.folded;
         if (s / 3 >= first_feature && twin / 3 >= first_gap && twin / 3 < first_feature) angles.push_back(angle);
     }
     if (angles.empty()) return q;
@@ -125,4 +120,4 @@ inline impl::seam_quality measure_seam(const mesh<triangle>& m, idx first_gap, i
     return q;
 }
 
-} // namespace taut
+} // namespace taut::impl

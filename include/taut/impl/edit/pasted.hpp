@@ -30,14 +30,17 @@ public:
 
     /// Throws region_error where the surroundings of vertex `onto` are no disk, paste_error where the rim does not fit
     /// there, parameter_error, mesh_error, device_error.
-    pasted(queue& q, mesh<triangle> target, feature part, idx onto, const paste_params& params = {})
+    pasted(queue& q, mesh<triangle> target, feature part, idx onto, const paste_params& params,
+           const run_limits& limits)
         : queue_(q),
           target_(std::move(target)),
           part_(std::move(part)),
           params_(valid(params)),
+          limits_(limits),
           first_turn_(params.pose.turn),
           site_(choose_site(q, target_, part_, onto, params_, report_))
     {
+        limits_.validate();
         report_.way = site_.rim.way;
         stitch();
         timed(report_.seconds.factor, [&] { interpolated([&] { factor(); }); });
@@ -331,7 +334,7 @@ private:
     void lay(const paste_pose& to)
     {
         const double far = *std::max_element(from_rim_.begin(), from_rim_.end());
-        auto laid = lay_feature(queue_, part_.region, from_rim_, 0.4 * far, site_.place, site_.rim.uv, params_.limits);
+        auto laid = lay_feature(queue_, part_.region, from_rim_, 0.4 * far, site_.place, site_.rim.uv, limits_);
         bend_laid_ = {queue_, base_.field(std::vector<vec3>(moving_.size(), vec3(0.0))), laid.on_target};
         laid_ = std::move(laid);
         paste_pose soft = to;
@@ -410,6 +413,7 @@ private:
     mesh<triangle> target_;
     feature part_;
     paste_params params_;
+    run_limits limits_;
     double first_turn_; ///< of the pose that the landing is for
     paste_report report_;
     site site_;

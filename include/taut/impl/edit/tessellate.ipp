@@ -129,7 +129,7 @@ feature tessellate(queue& q, const feature& part, const impl::feature_map& map, 
     std::vector<idx> vertices(points.size(), -1);
     for (std::size_t i = 0; i < rim.size(); ++i) vertices[i] = part.region.vertices[static_cast<std::size_t>(rim[i])];
     std::vector<idx> faces(plane.triangles().size(), -1);
-    return make_feature(
+    return feature(
         {mesh<triangle>(std::move(points), plane.triangles()), std::move(vertices), std::move(faces), std::move(loop)});
 }
 

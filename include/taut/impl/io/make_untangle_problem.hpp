@@ -34,21 +34,4 @@ untangle_problem<Element> make_untangle_problem(io::impl::prob_file<Element> fil
     return {mesh<Element>(std::move(file.rest), std::move(file.cells)), std::move(file.initial), std::move(held)};
 }
 
-/// Adds the pins and springs of a file to constraints. Throws constraint_error.
-template <class Element>
-void add_pins(constraints<Element>& to, const std::vector<io::pin<Element::dimension>>& pins)
-{
-    constexpr int D = Element::dimension;
-    for (const auto& p : pins)
-    {
-        if (!p.hard())
-            to.spring(p.vertex, p.target, p.weight);
-        else if (p.held == constraints<Element>::all)
-            to.pin(p.vertex, p.target);
-        else
-            for (int k = 0; k < D; ++k)
-                if ((p.held >> k & 1u) != 0) to.pin(p.vertex, k, p.target[k]);
-    }
-}
-
 } // namespace taut

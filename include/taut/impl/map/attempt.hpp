@@ -120,15 +120,20 @@ inline taut::observer observer_of(const map_run& run, const run_start& start, st
     };
 }
 
-/// Solver parameters for the finest level, with the remaining time.
+/// Solver parameters for the finest level.
 inline solve::params limited(const map_run& run, int max_iterations)
 {
     auto p = run.params.solve;
     if (p.stopping.tuning.base == 0)
         p.stopping.tuning.base = energy::rest_value<triangle::dimension>(run.params.energy);
     p.stopping.max_iterations = max_iterations;
-    p.stopping.time_limit = std::max(run.clock.left(), std::chrono::duration<double>(1e-9));
     return p;
+}
+
+/// The rest of the time, and the observer of observer_of().
+inline run_limits limits_of(const map_run& run, const run_start& start, std::function<std::vector<vec2>()> now)
+{
+    return {run.clock.left(), observer_of(run, start, std::move(now))};
 }
 
 inline std::vector<vec2> centred(std::vector<vec2> uv, const vec2& centre)
@@ -162,8 +167,7 @@ inline attempt attempt_on_mesh(const map_run& run, const run_start& start, preci
     if (a.stopped) return a;
     run.clock.spent(&map_seconds::device);
     run.clock.stages.add({.stage = "device", .vertices = run.vertices()});
-    a.solve =
-        solve::minimize(f, x, limited(run, max_iterations), observer_of(run, start, [&] { return f.download(x); }));
+    a.solve = solve::minimize(f, x, limited(run, max_iterations), limits_of(run, start, [&] { return f.download(x); }));
     run.clock.stages.add(minimised_on_mesh(run, a.solve));
     a.uv = restored(run, f.download(x), start.centre, start.map.uv);
     run.clock.spent(&map_seconds::solve);
@@ -175,8 +179,8 @@ inline nested_params descent_of(const map_run& run)
 {
     nested_params p;
     if (!run.iterates()) p.stopping.max_iterations = 0;
-    p.start.boundary = run.params.barycentric.boundary;
-    p.start.fixed_boundary = run.params.boundary == boundary_mode::fixed;
+    p.start.boundary = run.params.barycentric().boundary;
+    p.start.fixed_boundary = run.params.boundary != boundary_mode::free;
     p.start.proceed = [&run] { return run.clock.proceed(); };
     return p;
 }
@@ -231,7 +235,7 @@ inline attempt attempt_on(const mesh_levels<triangle>& levels, const nested_para
     if (start.coarse && run.iterates()) finest.relax();
     run.clock.stages.add({.stage = "prepare", .vertices = run.vertices()});
     a.solve = finest.minimize(limited(run, max_iterations),
-                              observer_of(run, start, [&] { return numbers.undo(finest.download()); }));
+                              limits_of(run, start, [&] { return numbers.undo(finest.download()); }));
     for (int& c : a.solve.capping) c = levels.order().cells.new_to_old[static_cast<std::size_t>(c)];
     run.clock.stages.add(minimised_on_mesh(run, a.solve));
     const auto begin = start.coarse ? numbers.undo(a.arrival) : start.map.uv;

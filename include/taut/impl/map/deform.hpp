@@ -41,9 +41,10 @@ namespace taut
 /// pins_held false. It is stopped where the limits ended the run before the pins reached their targets.
 /// Throws mesh_error, parameter_error, constraint_error, device_error.
 template <class Element>
-session_result<Element> deform(queue& q, const mesh<Element>& m, const deform_params<Element>& params)
+session_result<Element> deform(queue& q, const mesh<Element>& m, const deform_params<Element>& params,
+                               const run_limits& limits = {})
 {
-    return impl::settled(session<Element>(q, m, params).solve());
+    return impl::settled(session<Element>(q, m, params, limits).solve());
 }
 
 /// Deforms a surface in space as a thin shell, so that pins are met bit for bit and no triangle is collapsed: one call
@@ -53,9 +54,9 @@ session_result<Element> deform(queue& q, const mesh<Element>& m, const deform_pa
 ///     auto pins = taut::constraints(shell.hinges()).pin(12, {0, 0, 1});
 ///     auto [x, report] = taut::deform(queue, shell, {.constraints = pins, .thickness = 0.01});
 template <std::same_as<thin_shell> Shell>
-session_result<hinge> deform(queue& q, const Shell& shell, const shell_params& params)
+session_result<hinge> deform(queue& q, const Shell& shell, const shell_params& params, const run_limits& limits = {})
 {
-    return impl::settled(session<hinge>(q, shell, params).solve());
+    return impl::settled(session<hinge>(q, shell, params, limits).solve());
 }
 
 } // namespace taut

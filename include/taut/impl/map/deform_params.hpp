@@ -5,13 +5,11 @@
 
 #include <taut/impl/constrain/constraints.hpp>
 #include <taut/impl/constrain/slide.hpp>
-#include <taut/impl/core/observer.hpp>
 #include <taut/impl/energy/any_energy.hpp>
 #include <taut/impl/mesh/cell_data.hpp>
 #include <taut/impl/mesh/target_shapes.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
-#include <taut/impl/untangle/params.hpp>
 
 namespace taut
 {
@@ -60,21 +58,12 @@ struct deform_params
 
     taut::precision precision = precision::automatic;
 
-    /// Parameters of untangling a shape with inverted elements, or one whose pins do not reach their targets by steps.
-    /// Its time limit and observer are overruled by those below.
-    untangle_params untangling = {};
-
     /// Solver parameters: stopping, and those of Newton's method, which is the `automatic` one here.
-    /// `solve.stopping.time_limit` is overruled by time_limit below.
     solve::params solve = {};
-
-    /// Time and observer of the whole call.
-    run_limits limits = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
-        limits.validate();
         if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
             throw parameter_error("weights", "must be uniform or measure");
         if (precision != precision::automatic && precision != precision::fp64 && precision != precision::mixed &&
@@ -82,7 +71,6 @@ struct deform_params
             throw parameter_error("precision", "must be automatic, fp64, mixed or fp32");
         if (solve.method != solve::method::automatic && solve.method != solve::method::newton)
             throw parameter_error("solve.method", "must be automatic or newton");
-        untangling.validate();
         solve.validate();
         solve.require_newton_search();
     }

@@ -34,7 +34,7 @@ namespace taut
 /// deform() does.
 template <class Element>
 impl::refined_deformation<Element> deform(queue& q, const mesh<Element>& m, deform_params<Element> params,
-                                          const refine_params& refine)
+                                          const run_limits& limits, const refine_params& refine)
 {
     if (!params.targets.empty())
         throw parameter_error("targets", "are of elements, which are to be split; leave it out");
@@ -58,7 +58,7 @@ impl::refined_deformation<Element> deform(queue& q, const mesh<Element>& m, defo
     if (!params.initial.empty())
         params.initial = found.how.extended(std::span<const vec<Element::dimension>>(params.initial));
     if (!params.rest.empty()) params.rest = found.how.extended(std::span<const vec3>(params.rest));
-    found.result = deform(q, found.refined, params);
+    found.result = deform(q, found.refined, params, limits);
     return found;
 }
 

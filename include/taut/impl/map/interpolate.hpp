@@ -27,10 +27,14 @@ public:
     using shape = std::vector<vec<D>>;
 
     /// from: the mesh, in its first shape. to: the second shape, one position per vertex. Of params, `rest`,
-    /// `targets`, `initial` and `shapes` are overruled.
+    /// `targets`, `initial` and `shapes` are overruled. limits: of each call of at().
     /// Throws mesh_error where the first shape has inverted or flat elements, parameter_error where the other one has.
-    interpolation(const mesh<Element>& from, shape to, deform_params<Element> params = {})
-        : from_(from), to_(checked(from, std::move(to))), params_(std::move(params)), path_(from, to_)
+    interpolation(const mesh<Element>& from, shape to, deform_params<Element> params = {}, run_limits limits = {})
+        : from_(from),
+          to_(checked(from, std::move(to))),
+          params_(std::move(params)),
+          limits_(std::move(limits)),
+          path_(from, to_)
     {
         params_.rest.clear();
         params_.shapes = target_shapes::rest;
@@ -46,7 +50,7 @@ public:
         {
             params.targets = path_.edges(t);
             params.initial = start(q, t);
-            return deform(q, from_, params);
+            return deform(q, from_, params, limits_);
         }
         session_result<Element> end{t == 0 ? shape(from_.points().begin(), from_.points().end()) : to_, {}};
         end.report.outcome = outcome::valid;
@@ -84,13 +88,14 @@ private:
         params.constraints = constraints<Element>(from_);
         for (std::size_t v = 0; v < draft.size(); ++v)
             params.constraints.spring(static_cast<idx>(v), draft[v], 1000 / (size * double(draft.size())));
-        auto drawn = deform(q, from_, params);
+        auto drawn = deform(q, from_, params, limits_);
         return drawn ? std::move(drawn.x) : std::move(params.initial);
     }
 
     mesh<Element> from_;
     shape to_;
     deform_params<Element> params_;
+    run_limits limits_;
     impl::shape_path<Element> path_;
 };
 

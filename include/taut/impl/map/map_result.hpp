@@ -15,22 +15,6 @@
 #include <taut/impl/start/start_map.hpp>
 #include <taut/impl/untangle/result.hpp>
 
-namespace taut
-{
-
-/// Outcome of a run. Only `valid` comes with a certified map: no triangle is flipped, and there is no inner vertex that
-/// the map winds around other than once; in exact arithmetic.
-enum class outcome
-{
-    valid,          ///< the map is certified; map_report::solve says why the optimisation ended
-    no_valid_start, ///< no injective start was found; map_report::reason and ids say where
-    stopped,        ///< the time limit or the observer ended the run before there was a map; there are no coordinates
-    infeasible,     ///< no map obeys the pins without flips; reason and ids are the proof
-    gave_up         ///< untangling did not succeed; the map has the fewest defects that were seen, ids are theirs
-};
-
-} // namespace taut
-
 namespace taut::impl
 {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <taut/impl/compute/queue.hpp>
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/map/map_result.hpp>
 #include <taut/impl/map/parameterize_params.hpp>
 #include <taut/impl/mesh/mesh.hpp>
@@ -17,7 +18,8 @@ namespace taut
 /// reason (limits, observer) the map is the best one so far, which is as valid as any, or there is none yet
 /// (outcome::stopped).
 /// Throws mesh_error (not a disk, degenerate triangle, ...), parameter_error, device_error.
-map_result parameterize(queue& q, const mesh<triangle>& m, const parameterize_params& params = {});
+map_result parameterize(queue& q, const mesh<triangle>& m, const parameterize_params& params = {},
+                        const run_limits& limits = {});
 
 } // namespace taut
 

@@ -5,13 +5,12 @@
 
 #include <taut/impl/constrain/constraints.hpp>
 #include <taut/impl/constrain/placement.hpp>
-#include <taut/impl/core/observer.hpp>
 #include <taut/impl/energy/any_energy.hpp>
+#include <taut/impl/map/tuning.hpp>
 #include <taut/impl/mesh/cell_data.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
 #include <taut/impl/start/barycentric_params.hpp>
-#include <taut/impl/untangle/params.hpp>
 
 namespace taut
 {
@@ -19,8 +18,9 @@ namespace taut
 /// Treatment of the boundary during the optimisation.
 enum class boundary_mode
 {
-    free, ///< it moves like everything else
-    fixed ///< it stays where the start map has it
+    free,  ///< it moves like everything else
+    fixed, ///< it stays where `initial` has it; without that on a circle
+    square ///< the same; without `initial` on a square
 };
 
 /// Method of the initial map.
@@ -28,7 +28,9 @@ enum class start_method
 {
     automatic,   ///< `initial` if there is one; else coarse for Newton's method and barycentric for the others
     coarse,      ///< made and minimised on coarser levels of the mesh (start/nested.hpp)
-    barycentric, ///< on a convex polygon (start/barycentric_map.hpp)
+    barycentric, ///< on a convex polygon, with weights that reduce stretch (start/barycentric_map.hpp)
+    tutte,       ///< on a convex polygon, with uniform weights
+    mean_value,  ///< on a convex polygon, with mean value weights (Floater 2003)
     conformal    ///< spectral conformal, or coarse_start() where that has flips (start/conformal.hpp)
 };
 
@@ -49,6 +51,9 @@ struct parameterize_params
 
     boundary_mode boundary = boundary_mode::free;
 
+    /// Spacing of vertices on the circle or square, also that of a start with a free boundary.
+    boundary_spacing spacing = boundary_spacing::chord;
+
     /// Pins, which are met bit for bit, and springs. The start is brought near them and untangled.
     taut::constraints<triangle> constraints = {};
 
@@ -57,10 +62,9 @@ struct parameterize_params
     /// mirrored as a whole is reflected, others with flips are untangled.
     std::vector<vec2> initial = {};
 
-    /// Method of the start if there are no initial coordinates. A coarse start takes its boundary from `barycentric`
-    /// and falls back to a barycentric one where it fails.
+    /// Method of the start if there are no initial coordinates. A coarse start falls back to a barycentric one where it
+    /// fails.
     start_method start = start_method::automatic;
-    impl::barycentric_params barycentric = {.stretch_rounds = 10};
 
     /// Placement of an unconstrained map: a free boundary without pins and springs.
     taut::placement placement = placement::upright;
@@ -84,36 +88,40 @@ struct parameterize_params
     /// Newton's method always is.
     bool multigrid = false;
 
-    /// Parameters of untangling a start with flips. Its time limit and observer are overruled by those below.
-    untangle_params untangling = {};
-
     /// Solver parameters: method, line search (except of Newton's method, which is the `automatic` one here), stopping.
-    /// `solve.stopping.time_limit` is overruled by time_limit below. With stopping parameters given as a whole
-    /// (`.stopping = {...}`), a run that has only settled goes on.
+    /// With stopping parameters given as a whole (`.stopping = {...}`), a run that has only settled goes on.
     solve::params solve = {.stopping = {.settled_tolerance = 1e-4}};
 
-    /// Time and observer of the whole call. progress::usable: whether there is a map that would be returned.
-    run_limits limits = {};
+    /// Not for users: what tests and measurements set.
+    impl::map_tuning tuning = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
-        limits.validate();
         if (weights != energy::weighting::uniform && weights != energy::weighting::measure)
             throw parameter_error("weights", "must be uniform or measure");
-        if (boundary != boundary_mode::free && boundary != boundary_mode::fixed)
-            throw parameter_error("boundary", "must be free or fixed");
-        if (start != start_method::automatic && start != start_method::coarse && start != start_method::barycentric &&
-            start != start_method::conformal)
-            throw parameter_error("start", "must be automatic, coarse, barycentric or conformal");
+        if (boundary != boundary_mode::free && boundary != boundary_mode::fixed && boundary != boundary_mode::square)
+            throw parameter_error("boundary", "must be free, fixed or square");
+        if (start < start_method::automatic || start > start_method::conformal)
+            throw parameter_error("start", "must be automatic, coarse, barycentric, tutte, mean_value or conformal");
         if (precision != precision::automatic && precision != precision::fp64 && precision != precision::mixed &&
             precision != precision::fp32)
             throw parameter_error("precision", "must be automatic, fp64, mixed or fp32");
         if (placement != placement::upright && placement != placement::unit_square && placement != placement::as_solved)
             throw parameter_error("placement", "must be upright, unit_square or as_solved");
-        untangling.validate();
         solve.validate();
         if (solve.method == solve::method::automatic) solve.require_newton_search();
+    }
+
+    /// Parameters of barycentric starts.
+    impl::barycentric_params barycentric() const
+    {
+        const bool uniform = start == start_method::tutte, plain = uniform || start == start_method::mean_value;
+        return {.boundary = {.shape = boundary == boundary_mode::square ? impl::boundary_shape::square
+                                                                        : impl::boundary_shape::circle,
+                             .spacing = spacing},
+                .weights = uniform ? impl::barycentric_weights::uniform : impl::barycentric_weights::mean_value,
+                .stretch_rounds = plain ? 0 : tuning.stretch_rounds};
     }
 
     /// Returns whether the method works on a hierarchy of levels.

@@ -177,7 +177,7 @@ private:
                 break;
             }
             if (strides == most_strides || done == most_steps || !moves || !run_.clock.proceed()) break;
-            auto r = finest.minimize(step, observer_on(run_.clock, 1)); // no map of the run yet
+            auto r = finest.minimize(step, {.observer = observer_on(run_.clock, 1)}); // no map of the run yet
             moves = r.iterations > 0;
             if (moves && !(r.history.back().step < followed))
             {

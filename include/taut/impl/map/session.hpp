@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/map/deform_params.hpp>
 #include <taut/impl/map/parameterize_params.hpp>
 #include <taut/impl/map/session/session_body.hpp>
@@ -38,23 +39,26 @@ public:
     using point = vec<D>;
 
     /// Opens a session of a map of a surface. Validates; the first solve() computes the first map. params: as for
-    /// parameterize(); `constraints` are the initial ones, `time_limit` is for the first map. Throws mesh_error,
-    /// parameter_error (also for a method other than Newton's), constraint_error for constraints of another mesh.
-    session(queue& q, const mesh<Element>& m,
-            const parameterize_params& params = {}) requires std::same_as<Element, triangle>;
+    /// parameterize(); `constraints` are the initial ones. limits: time of the first map, observer of all calls. Throws
+    /// mesh_error, parameter_error (also for a method other than Newton's), constraint_error for constraints of another
+    /// mesh.
+    session(queue& q, const mesh<Element>& m, const parameterize_params& params = {},
+            const run_limits& limits = {}) requires std::same_as<Element, triangle>;
 
     /// Opens a session of a deforming volume; the first shape is that of the mesh, or params.initial, untangled if it
     /// has inverted elements. Throws as above.
-    session(queue& q, const mesh<Element>& m,
-            const deform_params<Element>& params = {}) requires std::same_as<Element, tetrahedron>;
+    session(queue& q, const mesh<Element>& m, const deform_params<Element>& params = {},
+            const run_limits& limits = {}) requires std::same_as<Element, tetrahedron>;
 
     /// Opens a session of a deforming mesh of the plane (z = 0).
     template <std::same_as<deform_params<Element>> Params>
-    session(queue& q, const mesh<Element>& m, const Params& params) requires std::same_as<Element, triangle>;
+    session(queue& q, const mesh<Element>& m, const Params& params,
+            const run_limits& limits = {}) requires std::same_as<Element, triangle>;
 
     /// Opens a session of a thin shell, taut::session<hinge>: maps are its shapes, which are certified to have no
     /// triangle collapsed to a line or a point; the surface may intersect itself.
-    session(queue& q, const thin_shell& shell, const shell_params& params = {}) requires std::same_as<Element, hinge>;
+    session(queue& q, const thin_shell& shell, const shell_params& params = {},
+            const run_limits& limits = {}) requires std::same_as<Element, hinge>;
 
     /// Pins vertex v to x, in the lengths of the map, or moves its pin there. Throws constraint_error, as
     /// constraints::pin does, and all of the session is as before.
@@ -134,11 +138,12 @@ private:
 };
 
 // clang 14 takes no account of the constraints of constructors where it deduces Element.
-session(queue&, const mesh<triangle>&, const parameterize_params& = {})->session<triangle>;
+session(queue&, const mesh<triangle>&, const parameterize_params& = {}, const run_limits& = {})->session<triangle>;
 template <std::same_as<deform_params<triangle>> Params>
-session(queue&, const mesh<triangle>&, const Params&) -> session<triangle>;
-session(queue&, const mesh<tetrahedron>&, const deform_params<tetrahedron>& = {})->session<tetrahedron>;
-session(queue&, const thin_shell&, const shell_params& = {})->session<hinge>;
+session(queue&, const mesh<triangle>&, const Params&, const run_limits& = {}) -> session<triangle>;
+session(queue&, const mesh<tetrahedron>&, const deform_params<tetrahedron>& = {}, const run_limits& = {})
+    ->session<tetrahedron>;
+session(queue&, const thin_shell&, const shell_params& = {}, const run_limits& = {})->session<hinge>;
 
 } // namespace taut
 

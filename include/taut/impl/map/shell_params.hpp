@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/core/observer.hpp>
 #include <taut/impl/mesh/thin_shell.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
@@ -31,12 +30,10 @@ struct shell_params
 
     /// As in deform_params.
     solve::params solve = {};
-    run_limits limits = {};
 
     /// Throws parameter_error that names the field.
     void validate() const
     {
-        limits.validate();
         if (thickness && (!(*thickness > 0) || !std::isfinite(*thickness)))
             throw parameter_error("thickness", "must be positive and finite");
     }

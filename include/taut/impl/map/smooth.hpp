@@ -48,14 +48,11 @@ struct smooth_params
     std::vector<impl::kept_facet> kept = {};
 
     taut::precision precision = precision::automatic;
-    untangle_params untangling = {};
     solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
-    run_limits limits = {};
 
     /// Throws parameter_error that names the field; deform_params says the rest.
     void validate() const
     {
-        limits.validate();
         if (worst_exponent < 1 || worst_exponent > 8) throw parameter_error("worst_exponent", "must be 1 to 8");
     }
 };
@@ -131,9 +128,7 @@ deform_params<Element> smoothing(const smooth_params<Element>& params, int expon
                 for (int r = 0; r < Element::dimension; ++r) edges[k][r] = std::ldexp(edges[k][r], -exponent);
     how.owners = params.owners;
     how.precision = params.precision;
-    how.untangling = params.untangling;
     how.solve = params.solve;
-    how.limits = {params.limits.time_limit, in_own_size<Element>(params.limits.observer, exponent)};
     return how;
 }
 
@@ -180,9 +175,11 @@ namespace taut
 /// inverting one; inverted elements are untangled first. Connectivity is kept.
 /// Throws mesh_error, parameter_error, constraint_error for wrong ids, device_error.
 template <class Element>
-smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth_params<Element>& params = {})
+smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth_params<Element>& params = {},
+                              const run_limits& limits = {})
 {
     params.validate();
+    limits.validate();
     if (!params.owners.empty() && params.targets.size() != given.cells().size())
         throw parameter_error("targets", "one matrix a cell where there are owners");
     using point = vec<Element::dimension>;
@@ -199,7 +196,7 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
                                      : measure_shapes<Element>(m.cells(), x, params.owners, params.targets);
     };
     result.before = measured(start);
-    auto found = deform(q, m, how);
+    auto found = deform(q, m, how, {limits.time_limit, impl::in_own_size<Element>(limits.observer, exponent)});
     if (!found.x.empty()) result.after = measured(found.x);
     auto& report = found.report;
     if (report.outcome == outcome::valid)

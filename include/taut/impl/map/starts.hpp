@@ -21,14 +21,12 @@ namespace taut::impl
 /// moved to their targets, or none.
 inline run_start untangled_start(const map_run& run, run_start start, std::vector<vec2> draft)
 {
-    const bool bound = run.held.constrained() || run.params.boundary == boundary_mode::fixed;
+    const bool bound = run.held.constrained() || run.params.boundary != boundary_mode::free;
     run.clock.has_result(bound); // the best map, even with defects
-    auto how = run.params.untangling;
-    how.limits.time_limit = run.clock.left();
-    how.limits.observer = [&run](const progress&) { return run.clock.ask({.iterate = false}); };
     auto problem = run.held.problem(run.in.surface, start.map.uv);
     if (!draft.empty() && certify<2>(run.in.surface.cells(), draft)) problem.draft = std::move(draft);
-    auto found = untangle(run.queue, problem, how);
+    const auto ask = [&run](const progress&) { return run.clock.ask({.iterate = false}); };
+    auto found = untangle(run.queue, problem, {}, {run.clock.left(), ask});
 
     run.clock.stages.append(found.stages);
     start.untangling = std::move(found.stages);
@@ -44,7 +42,7 @@ inline run_start untangled_start(const map_run& run, run_start start, std::vecto
     start.map.assess(run.in.surface, run.in.ideal);
     if (!found)
     {
-        const bool proved = found.outcome == untangle_outcome::infeasible;
+        const bool proved = found.outcome == outcome::infeasible;
         start.refused = {proved ? outcome::infeasible : outcome::gave_up, std::move(found.reason),
                          std::move(found.ids)};
     }
@@ -165,7 +163,7 @@ inline std::span<const start_maker> start_makers()
          [](const map_run& run, map_solver)
          {
              run_start start;
-             start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric, elimination_solver(),
+             start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric(), elimination_solver(),
                                          [&run] { return run.clock.proceed(); });
              return fitted_start(run, std::move(start), false);
          }}};

@@ -11,7 +11,7 @@ namespace taut::solve
 
 // Compiled once, with the bodies.
 extern template report minimize(taut::impl::newton_objective<triangle>&, taut::impl::newton_objective<triangle>::point&,
-                                const params&, const observer&);
+                                const params&, const run_limits&);
 extern template class impl::prescribed_newton<taut::impl::newton_objective<triangle>>;
 
 } // namespace taut::solve

@@ -78,9 +78,9 @@ public:
                                           const std::function<bool(const solve::impl::prescribed_report&)>& proceed);
 
     /// Minimises with fixed coordinates where they are.
-    solve::report minimise(const solve::params& how, const observer& ask)
+    solve::report minimise(const solve::params& how, const run_limits& limits)
     {
-        auto r = solve::minimize(device_->objective, device_->x, how, ask);
+        auto r = solve::minimize(device_->objective, device_->x, how, limits);
         for (int& c : r.capping) c = device_->cells[static_cast<std::size_t>(c)];
         return r;
     }

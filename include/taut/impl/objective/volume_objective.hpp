@@ -31,7 +31,7 @@ namespace taut::solve
 {
 
 extern template report minimize(taut::impl::newton_objective<tetrahedron>&,
-                                taut::impl::newton_objective<tetrahedron>::point&, const params&, const observer&);
+                                taut::impl::newton_objective<tetrahedron>::point&, const params&, const run_limits&);
 extern template class impl::prescribed_newton<taut::impl::newton_objective<tetrahedron>>;
 
 } // namespace taut::solve

@@ -26,7 +26,7 @@ namespace taut::solve
 {
 
 template report minimize(taut::impl::newton_objective<tetrahedron>&, taut::impl::newton_objective<tetrahedron>::point&,
-                         const params&, const observer&);
+                         const params&, const run_limits&);
 template class impl::prescribed_newton<taut::impl::newton_objective<tetrahedron>>;
 
 } // namespace taut::solve

@@ -27,11 +27,8 @@ namespace taut::impl
 class grid_packer
 {
 public:
-    grid_packer(std::span<const piece> pieces, const pack_params& params)
-        : pieces_(pieces),
-          params_(params),
-          limits_(params.limits.time_limit, params.limits.observer),
-          resolution_(params.resolution)
+    grid_packer(std::span<const piece> pieces, const pack_params& params, const run_limits& limits)
+        : pieces_(pieces), params_(params), limits_(limits.time_limit, limits.observer), resolution_(params.resolution)
     {
         for (const piece& p : pieces_) area_ += p.area;
         order_.resize(pieces_.size());

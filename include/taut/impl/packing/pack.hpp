@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/packing/pack_params.hpp>
 #include <taut/impl/packing/packing_error.hpp>
@@ -73,7 +74,7 @@ enum class packing_effort
 
 /// Packs charts with known borders in these coordinates.
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params,
-                      packing_effort effort = packing_effort::full);
+                      const run_limits& limits, packing_effort effort = packing_effort::full);
 
 } // namespace taut::impl
 
@@ -88,10 +89,13 @@ namespace taut
 /// first_cell:   #charts + 1: the triangles of a chart are in one piece
 /// first_vertex: #charts + 1: so are its vertices
 ///
+/// limits:       then the best layout so far is returned; a cheap one on shelves is made first. The observer is asked
+///               every 8 charts of a layout
+///
 /// certify_packing() (packing/certificate.hpp) measures the result of any packer.
 /// Throws packing_error, parameter_error.
 packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells, std::span<const idx> first_cell,
-             std::span<const idx> first_vertex, const pack_params& params = {});
+             std::span<const idx> first_vertex, const pack_params& params = {}, const run_limits& limits = {});
 
 } // namespace taut
 

@@ -27,11 +27,11 @@ namespace taut::impl
 class packer
 {
 public:
-    packer(std::span<const piece> pieces, const pack_params& params, packing_effort effort)
+    packer(std::span<const piece> pieces, const pack_params& params, const run_limits& limits, packing_effort effort)
         : pieces_(pieces),
           params_(params),
           effort_(effort),
-          limits_(params.limits.time_limit, params.limits.observer),
+          limits_(limits.time_limit, limits.observer),
           tiles_(params.walls.empty() ? std::min(params.tiles, static_cast<int>(pieces.size())) : params.tiles)
     {
         for (const piece& p : pieces_)
@@ -361,15 +361,16 @@ private:
 };
 
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params,
-                      packing_effort effort)
+                      const run_limits& limits, packing_effort effort)
 {
     params.validate(outlines.charts());
+    limits.validate();
     double area = 0;
     for (const double a : outlines.areas) area += a;
     if (!(area > 0)) throw packing_error(packing_error::no_area, {}, "the charts have no area; flatten them again");
     const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
-    if (params.on_grid()) return grid_packer(pieces, params).run();
-    packing packed = packer(pieces, params, effort).run();
+    if (params.on_grid()) return grid_packer(pieces, params, limits).run();
+    packing packed = packer(pieces, params, limits, effort).run();
     packed.resolution = params.resolution;
     packed.tiles = params.tiles;
     return packed;
@@ -381,12 +382,13 @@ namespace taut
 {
 
 packing pack(std::span<const vec2> uv, std::span<const std::array<idx, 3>> cells, std::span<const idx> first_cell,
-             std::span<const idx> first_vertex, const pack_params& params)
+             std::span<const idx> first_vertex, const pack_params& params, const run_limits& limits)
 {
     params.validate(static_cast<idx>(first_cell.size()) - 1);
+    limits.validate();
     if (first_cell.size() < 2) return {};
     impl::check_charts(uv, cells, first_cell, first_vertex);
-    return impl::pack_outlined(uv, impl::find_outlines(uv, cells, first_cell, first_vertex), params);
+    return impl::pack_outlined(uv, impl::find_outlines(uv, cells, first_cell, first_vertex), params, limits);
 }
 
 } // namespace taut

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/core/types.hpp>
 
@@ -55,14 +54,15 @@ struct pack_params
     /// charts begin at blocks. A power of two, 1 to 64; 1: none.
     int align = 1;
 
-    /// The tile of each chart; empty: any.
+    /// The tile of each chart; empty: any. Of make_atlas() that of each triangle's chart: charts cross from one tile to
+    /// another no further than `charts.seams` lets them, so give the borders of groups as seams.
     std::vector<idx> groups = {};
 
     /// True if charts may be rotated. Otherwise they are only translated and scaled.
     bool rotate = true;
 
     /// Relative texel densities: factors of the lengths of charts, more texels for a face, fewer for a sole. One
-    /// positive number per chart; empty: 1 each.
+    /// positive number per chart, of make_atlas() per triangle, the same within a chart; empty: 1 each.
     std::vector<double> densities = {};
 
     /// Obstacles in the tiles, from which charts keep the padding.
@@ -71,10 +71,6 @@ struct pack_params
     /// Maximum rounding of a coordinate in [0, tiles) in the output file; the padding is kept after it. Default:
     /// floats, tiles up to the eighth. 0 to 0.001.
     double rounding = 1e-6;
-
-    /// Limits, after which the best layout so far is returned; a cheap shelf layout is made first. The observer is
-    /// asked every 8 charts of a layout.
-    run_limits limits = {};
 
     /// Throws parameter_error.
     void validate(idx charts) const
@@ -101,7 +97,6 @@ struct pack_params
                 "empty or one tile a chart");
         for (const idx tile : groups) require(tile >= 0 && tile < tiles, "groups", "numbers of tiles");
         require(rounding >= 0 && rounding <= 1e-3, "rounding", "0 to 0.001");
-        limits.validate();
         require(densities.empty() || densities.size() == static_cast<std::size_t>(charts), "densities",
                 "empty or one number a chart");
         for (const impl::tile_wall& wall : walls)

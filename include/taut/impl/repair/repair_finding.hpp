@@ -9,7 +9,7 @@
 #include <taut/impl/core/name_in.hpp>
 #include <taut/impl/core/types.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Defects that repair_surface() repairs. Where mesh_fault has the same, the word is the same. The comment names the
@@ -39,11 +39,6 @@ constexpr const char* to_string(repair_kind kind)
          "non_manifold_vertex", "contradicting_normal"},
         kind);
 }
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Number of ids of a defect of a kind: 2 for edges and pairs.
 constexpr int ids_each(repair_kind kind)

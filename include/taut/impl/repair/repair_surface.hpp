@@ -59,6 +59,8 @@ namespace taut
 /// Result of repair_surface(): a surface, and what was repaired.
 struct repaired_surface
 {
+    using enum impl::repair_kind; // so that a kind of a finding is repaired_surface::degenerate_cell, say
+
     mesh<triangle> surface;          ///< an oriented manifold of one or more parts, no triangle flat
     std::vector<idx> vertex_origins; ///< the vertex of the input, one per vertex; of welded ones the smallest
     std::vector<idx> cell_origins;   ///< the triangle of the input, one per triangle, increasing

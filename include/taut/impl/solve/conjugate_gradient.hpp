@@ -51,12 +51,12 @@ private:
 /// iterate whatever the reason to stop. Throws parameter_error. Host waits as for lbfgs.
 template <objective Objective>
 report conjugate_gradient(Objective& f, typename Objective::point& x, const conjugate_gradient_params& params = {},
-                          const impl::descent_params& common = {}, const observer& ask = {})
+                          const impl::descent_params& common = {}, const run_limits& limits = {})
 {
     params.validate();
     common.validate();
     auto h = impl::inverse_hessian(f, params.memory);
-    return impl::descent(f, x, h, conjugate_rule(params), common, ask).run();
+    return impl::descent(f, x, h, conjugate_rule(params), common, limits).run();
 }
 
 } // namespace taut::solve::impl

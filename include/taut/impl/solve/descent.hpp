@@ -52,13 +52,13 @@ public:
     using point = typename Objective::point;
     using vector = vector_of<Objective>;
 
-    descent(Objective& f, point& x, Hessian& h, Rule rule, const descent_params& params, const observer& ask)
+    descent(Objective& f, point& x, Hessian& h, Rule rule, const descent_params& params, const run_limits& limits)
         : f_(f),
           x_(x),
           h_(h),
           rule_(std::move(rule)),
           params_(params),
-          monitor_(ask, params.stopping.time_limit),
+          monitor_(limits),
           rounding_(std::max(f_.rounding(), params.line_search.tuning.rounding)),
           test_(params.stopping, rounding_, 10, f_.size(0)),
           trial_(f.make_point()),
@@ -111,7 +111,7 @@ private:
         if (!(d.slope < 0) || !std::isfinite(d.slope) || !std::isfinite(d.length)) return restart();
 
         // The barrier is ahead at a positive distance, or x_k is on it.
-        const double bound = params_.line_search.barrier_fraction * f_.max_step(x_, d_);
+        const double bound = params_.line_search.tuning.barrier_fraction * f_.max_step(x_, d_);
         if (!(bound > 0)) return restart();
         // The slope at a trial comes with all inner products of the pair that the trial would make.
         const auto slope = [&](double a) { return h_.propose(a, d_, g_, g_new_); };

@@ -11,12 +11,12 @@ namespace taut::solve::impl
 /// preconditioners. x ends at the best iterate. Throws parameter_error.
 template <objective Objective>
 report gradient_descent(Objective& f, typename Objective::point& x, const impl::descent_params& common = {},
-                        const observer& ask = {})
+                        const run_limits& limits = {})
 {
     common.validate();
     const memory_params none{.pairs = 0};
     auto h = impl::inverse_hessian(f, none);
-    return impl::descent(f, x, h, impl::no_momentum{}, common, ask).run();
+    return impl::descent(f, x, h, impl::no_momentum{}, common, limits).run();
 }
 
 } // namespace taut::solve::impl

@@ -15,12 +15,12 @@ namespace taut::solve::impl
 /// multi_dot: 3.
 template <objective Objective>
 report lbfgs(Objective& f, typename Objective::point& x, const lbfgs_params& params = {},
-             const impl::descent_params& common = {}, const observer& ask = {})
+             const impl::descent_params& common = {}, const run_limits& limits = {})
 {
     params.validate();
     common.validate();
     auto h = impl::inverse_hessian(f, params.memory);
-    return impl::descent(f, x, h, impl::no_momentum{}, common, ask).run();
+    return impl::descent(f, x, h, impl::no_momentum{}, common, limits).run();
 }
 
 } // namespace taut::solve::impl

@@ -21,10 +21,7 @@ inline stop stop_of(const taut::impl::budget& limits)
 class monitor
 {
 public:
-    explicit monitor(observer ask, taut::impl::budget::seconds limit = taut::impl::budget::unlimited)
-        : budget_(limit, std::move(ask))
-    {
-    }
+    explicit monitor(const run_limits& limits) : budget_(limits.time_limit, limits.observer) {}
 
     double seconds() const { return budget_.total(); }
     int evaluations() const noexcept { return now_.evaluations; }

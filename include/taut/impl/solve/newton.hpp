@@ -47,13 +47,14 @@ public:
     using point = typename Objective::point;
     using vector = vector_of<Objective>;
 
-    newton_loop(Objective& f, point& x, const newton_params& params, const descent_params& common, const observer& ask)
+    newton_loop(Objective& f, point& x, const newton_params& params, const descent_params& common,
+                const run_limits& limits)
         : f_(f),
           x_(x),
           params_(params),
           common_(common),
           rounding_(std::max(f_.rounding(), common.line_search.tuning.rounding)),
-          monitor_(ask, common.stopping.time_limit),
+          monitor_(limits),
           test_(common.stopping, rounding_, patience, f_.size(0)),
           pcg_(f.space(), params.pcg),
           previous_(f.make_point()),
@@ -166,7 +167,7 @@ private:
     std::optional<trial> search()
     {
         if (!(model_.slope < 0)) return std::nullopt;
-        const double armijo = common_.line_search.wolfe.sufficient_decrease;
+        const double armijo = common_.line_search.tuning.wolfe.sufficient_decrease;
         constexpr int rounds = 8;
         double unit = 1, longest = 1;
         const bool far = !exact_;
@@ -198,7 +199,7 @@ private:
     /// Values at unit * a with a unit of at most `most`, which is returned.
     double first_values(std::span<const double> a, std::span<double> values, double most)
     {
-        const double fraction = common_.line_search.barrier_fraction;
+        const double fraction = common_.line_search.tuning.barrier_fraction;
         full_square_.reset();
         if (near_end_ && most == 1)
             if (const auto r = f_.capped_values(x_, d_, fraction, a, values, full_, full_gradient_))
@@ -358,11 +359,11 @@ private:
 template <objective Objective>
     requires has_hessian<Objective> report newton(Objective& f, typename Objective::point& x,
                                                   const newton_params& params = {}, const descent_params& common = {},
-                                                  const observer& ask = {})
+                                                  const run_limits& limits = {})
     {
         params.validate();
         common.validate();
-        return impl::newton_loop<Objective>(f, x, params, common, ask).run();
+        return impl::newton_loop<Objective>(f, x, params, common, limits).run();
     }
 
 } // namespace taut::solve::impl

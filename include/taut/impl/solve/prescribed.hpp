@@ -23,7 +23,7 @@ struct prescribed_params
     /// ones, so that a small gain does not mean that those farther off have followed.
     pcg_params pcg = {.gain = 0.01};
 
-    /// As in line_search_params.
+    /// As in line_tuning.
     double barrier_fraction = 0.9;
 
     /// Maximum relative increase of f per step, relative to its scale where that is larger (`value_scale()` in

@@ -70,7 +70,8 @@ public:
             decreases_ = 0;
         else if (!k.capped && !falling)
             ++decreases_;
-        const bool short_step = params_.step_tolerance > 0 && k.length <= params_.step_tolerance * longest_;
+        const bool short_step =
+            params_.tuning.step_tolerance > 0 && k.length <= params_.tuning.step_tolerance * longest_;
         steps_ = short_step && !k.capped ? steps_ + 1 : 0;
         promises_ = k.promised <= promise * params_.gradient_tolerance * std::abs(k.value - params_.tuning.base)
                         ? promises_ + 1

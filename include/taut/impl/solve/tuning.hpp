@@ -40,9 +40,36 @@ struct exact_params
     }
 };
 
+/// Constants of the Wolfe conditions (Nocedal & Wright, Numerical Optimization, 2nd ed., section 3.1).
+struct wolfe_params
+{
+    /// c1: minimum decrease, as a fraction of that predicted by the slope. Range (0, 0.5). Hardly ever worth a change.
+    double sufficient_decrease = 1e-4;
+
+    /// c2: maximum remaining slope, as a fraction of the initial one. Range (c1, 1). 0.9 for quasi-Newton directions;
+    /// 0.1 makes searches nearly exact, which suits plain conjugate gradients.
+    double curvature = 0.9;
+
+    friend bool operator==(const wolfe_params&, const wolfe_params&) = default;
+
+    void validate() const
+    {
+        if (!(sufficient_decrease > 0 && sufficient_decrease < 0.5))
+            throw parameter_error("wolfe.sufficient_decrease", "must be in (0, 0.5)");
+        if (!(curvature > sufficient_decrease && curvature < 1))
+            throw parameter_error("wolfe.curvature", "must be between sufficient_decrease and 1");
+    }
+};
+
 /// Tuning of all line searches.
 struct line_tuning
 {
+    wolfe_params wolfe = {};
+
+    /// Maximum trial step as a fraction of the step to the barrier (objectives with max_step). Range (0, 1); 0.9 to
+    /// 0.99 are sensible: nearer to 1 the energy at the end of the step explodes.
+    double barrier_fraction = 0.9;
+
     exact_params exact = {};
 
     static constexpr int most_batch = 16;
@@ -65,6 +92,9 @@ struct line_tuning
 
     void validate() const
     {
+        wolfe.validate();
+        if (!(barrier_fraction > 0 && barrier_fraction < 1))
+            throw parameter_error("line_search.barrier_fraction", "must be in (0, 1)");
         exact.validate();
         if (batch < 1 || batch > most_batch) throw parameter_error("line_search.batch", "must be in 1..16");
         if (max_evaluations < 1) throw parameter_error("line_search.max_evaluations", "must be at least 1");
@@ -86,8 +116,14 @@ struct stopping_tuning
     /// decrease_tolerance. Range >= 1.
     int barrier_count = 10;
 
+    /// Stop after two uncapped steps in a row of at most step_tolerance * the longest step of the run.
+    /// Range [0, 1); off by default.
+    double step_tolerance = 0;
+
     void validate() const
     {
+        if (!(step_tolerance >= 0 && step_tolerance < 1))
+            throw parameter_error("stopping.step_tolerance", "must be in [0, 1)");
         if (decrease_count < 1) throw parameter_error("stopping.decrease_count", "must be at least 1");
         if (barrier_count < 1) throw parameter_error("stopping.barrier_count", "must be at least 1");
     }
@@ -147,10 +183,75 @@ struct newton_params
     }
 };
 
+/// Choice of the factor gamma of H0 = gamma I (or gamma times the objective's own H0).
+enum class scaling
+{
+    newest, ///< s'y / y'H0 y of the newest pair (Nocedal & Wright, 7.20)
+    largest ///< the larger of those of the oldest and the newest pair: the paper's [24] as its authors use it
+};
+
+/// Parameters of the limited memory of L-BFGS and of the preconditioned conjugate gradient method.
+struct memory_params
+{
+    /// m: pairs (s, y) kept. Range 0..64; 0 leaves H0. 5 to 20 are usual: more memory, fewer iterations.
+    int pairs = 8;
+
+    solve::impl::scaling scaling = solve::impl::scaling::newest;
+
+    /// A pair with s'y <= cautious |s| |y| is left out (Li & Fukushima 2001), which keeps H positive definite.
+    /// Range [0, 1). Raise it where gradients are noisy.
+    double cautious = 1e-8;
+
+    void validate() const
+    {
+        if (pairs < 0 || pairs > 64) throw parameter_error("memory.pairs", "must be in 0..64");
+        if (!(cautious >= 0 && cautious < 1)) throw parameter_error("memory.cautious", "must be in [0, 1)");
+    }
+};
+
+/// Parameters of the limited-memory BFGS method.
+struct lbfgs_params
+{
+    memory_params memory = {};
+
+    void validate() const { memory.validate(); }
+};
+
+/// beta of the conjugate directions, in the inner product of the preconditioner H = H_{k+1}. Negative ones, which
+/// inexact searches that stop short produce, become 0 (Nocedal & Wright, 5.45, for either formula).
+enum class conjugacy
+{
+    hestenes_stiefel, ///< y'H g_{k+1} / y'd_k: the paper's
+    polak_ribiere     ///< y'H g_{k+1} / g_k'H g_k: "PR+"
+};
+
+/// Parameters of the paper's preconditioned nonlinear conjugate gradient method.
+struct conjugate_gradient_params
+{
+    conjugacy beta = conjugacy::hestenes_stiefel;
+
+    /// The preconditioner: m pairs of L-BFGS (the paper compares several m, Figure 7; its released code takes 1). 0 is
+    /// the plain method.
+    memory_params memory = {.pairs = 5, .scaling = scaling::largest};
+
+    /// Number of iterations between restarts. Range >= 0; 0: only where the direction does not descend or the line
+    /// search fails. The number of unknowns is the classic choice for the plain method on small problems.
+    int restart_interval = 0;
+
+    void validate() const
+    {
+        memory.validate();
+        if (restart_interval < 0) throw parameter_error("conjugate_gradient.restart_interval", "must not be negative");
+    }
+};
+
 /// Tuning of minimize().
 struct tuning
 {
     newton_params newton = {};
+    line_tuning line = {};
+    lbfgs_params lbfgs = {};
+    conjugate_gradient_params conjugate_gradient = {};
     double first_length = 1;       ///< as in descent_params
     double linearize_after = 0.03; ///< as in descent_params
 };

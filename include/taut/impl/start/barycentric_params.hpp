@@ -4,13 +4,6 @@
 namespace taut
 {
 
-/// Convex outline of the boundary.
-enum class boundary_shape
-{
-    circle,
-    square
-};
-
 /// Spacing of boundary vertices: uniform, by the boundary edges' lengths, or by the square roots of the lengths.
 enum class boundary_spacing
 {
@@ -24,17 +17,19 @@ enum class boundary_spacing
 namespace taut::impl
 {
 
+/// Convex outline of the boundary.
+enum class boundary_shape
+{
+    circle,
+    square
+};
+
 /// Parameters of the fixed boundary of a barycentric map.
 struct boundary_params
 {
     boundary_shape shape = boundary_shape::circle;
     boundary_spacing spacing = boundary_spacing::chord;
 };
-
-} // namespace taut::impl
-
-namespace taut
-{
 
 /// Weights that make each free vertex a mean of its neighbours.
 ///
@@ -46,11 +41,6 @@ enum class barycentric_weights
     uniform,
     mean_value
 };
-
-} // namespace taut
-
-namespace taut::impl
-{
 
 /// Parameters of a barycentric map onto a convex polygon.
 struct barycentric_params

@@ -79,9 +79,9 @@ public:
         /// Relaxes the elements that cap the first step, for maps that come from a coarser level.
         void relax() { objective_.relax(x_); }
 
-        solve::report minimize(const solve::params& how, const observer& ask = {})
+        solve::report minimize(const solve::params& how, const run_limits& limits = {})
         {
-            return solve::minimize(objective_, x_, how, ask);
+            return solve::minimize(objective_, x_, how, limits);
         }
 
         void warm_up() { objective_.warm_up(x_); }

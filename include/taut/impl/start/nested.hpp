@@ -150,7 +150,7 @@ private:
         if (levels_.vertices(l) <= params_.small_vertices)
             stopping.tuning.decrease_count = params_.small_decrease_count;
         stages_.add({.stage = "prepare", .level = l, .vertices = levels_.vertices(l)});
-        auto r = level.minimize({.method = solve::method::newton, .stopping = stopping}, ask);
+        auto r = level.minimize({.method = solve::method::newton, .stopping = stopping}, {.observer = ask});
         auto did = stage_of("minimise", l, levels_.vertices(l), r);
         if (!r.capping.empty()) did.cut_by = corners_of(levels_.cells(l), r.capping, levels_.users(l));
         stages_.add(std::move(did));

@@ -61,12 +61,12 @@ private:
             if (!problem.draft.empty()) part.draft.push_back(problem.draft[v]);
             part.held[i] = problem.held[v];
         }
+        const run_limits limits{.time_limit = std::chrono::duration<double>(state.seconds_left()),
+                                .observer = [&state](const progress& p) { return state.proceed(p); }};
         untangle_params how;
-        how.limits.time_limit = std::chrono::duration<double>(state.seconds_left());
-        how.limits.observer = [&state](const progress& p) { return state.proceed(p); };
         how.tuning.first_round = steps;
         how.rounds = 1;
-        untangle_state<triangle> coarse(part, how, newton_maker<triangle>(impl::direct_newton));
+        untangle_state<triangle> coarse(part, limits, newton_maker<triangle>(impl::direct_newton));
         if (!coarse.injective() && !find_infeasibility(part))
         {
             coarse.ended("proofs", "");

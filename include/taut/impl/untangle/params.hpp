@@ -5,7 +5,6 @@
 #include <vector>
 
 #include <taut/impl/core/error.hpp>
-#include <taut/impl/core/observer.hpp>
 #include <taut/impl/untangle/tuning.hpp>
 
 namespace taut
@@ -14,9 +13,6 @@ namespace taut
 /// Parameters of untangle(). Every field has a sensible default.
 struct untangle_params
 {
-    /// Time and observer of the whole call. iteration, value (fewest inverted elements so far) and seconds are set.
-    run_limits limits = {};
-
     /// Names of the stages to run, in this order; empty: all that the dimension and the device allow
     /// (stages.hpp).
     std::vector<std::string> stages = {};
@@ -30,7 +26,6 @@ struct untangle_params
     /// Throws parameter_error that names the field; the names of stages are looked up by untangle().
     void validate() const
     {
-        limits.validate();
         if (rounds < 1) throw parameter_error("rounds", "must be at least 1");
         tuning.validate();
     }

@@ -14,23 +14,21 @@
 namespace taut
 {
 
-/// Outcome of untangling.
-enum class untangle_outcome
+/// Outcome of a run. Only `valid` comes with a certified map: no element is inverted, and there is no inner vertex of a
+/// surface that the map winds around other than once; in exact arithmetic.
+enum class outcome
 {
-    injective,  ///< no element is inverted and there is no branch point, in exact arithmetic
-    infeasible, ///< no map is injective; untangle_result::reason and ids are the certificate
-    gave_up     ///< none was found, and none is known not to exist
+    valid,          ///< the map is certified; map_report::solve says why the optimisation ended
+    no_valid_start, ///< no injective start was found; map_report::reason and ids say where
+    stopped,        ///< the time limit or the observer ended the run before there was a map; there are no coordinates
+    infeasible,     ///< no map obeys the pins without inverted elements; reason and ids are the proof
+    gave_up         ///< untangling did not succeed; the map has the fewest defects that were seen, ids are theirs
 };
 
 /// Stable name of an outcome, for programs.
-constexpr std::string_view to_string(untangle_outcome outcome) noexcept
+constexpr std::string_view to_string(outcome what) noexcept
 {
-    return taut::impl::name_in<untangle_outcome::gave_up>({"injective", "infeasible", "gave up"}, outcome);
-}
-
-inline std::ostream& operator<<(std::ostream& out, untangle_outcome outcome)
-{
-    return out << to_string(outcome);
+    return taut::impl::name_in<outcome::gave_up>({"valid", "no valid start", "stopped", "infeasible", "gave up"}, what);
 }
 
 } // namespace taut
@@ -56,7 +54,7 @@ struct untangle_result
 {
     static constexpr int D = Element::dimension;
 
-    untangle_outcome outcome = untangle_outcome::gave_up;
+    taut::outcome outcome = outcome::gave_up;
     std::string reason;      ///< why there is no injective map; empty if there is one
     std::vector<idx> ids;    ///< infeasible: what the proof names; gave_up: the inverted elements of the map, or its
                              ///< branch points where none is inverted
@@ -68,13 +66,13 @@ struct untangle_result
     double seconds = 0;                              ///< wall-clock seconds of the whole run
 
     /// True if the map is certified.
-    explicit operator bool() const { return outcome == untangle_outcome::injective; }
+    explicit operator bool() const { return outcome == outcome::valid; }
 };
 
 template <class Element>
 std::ostream& operator<<(std::ostream& out, const untangle_result<Element>& r)
 {
-    out << r.outcome;
+    out << (r ? "injective" : to_string(r.outcome));
     if (!r) return out << ": " << r.reason;
     return out << ", by " << r.stage;
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <taut/impl/untangle/params.hpp>
 #include <taut/impl/untangle/stage.hpp>
 
 namespace taut::impl

@@ -17,7 +17,6 @@
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/objective/stage_report.hpp>
 #include <taut/impl/start/harmonic.hpp>
-#include <taut/impl/untangle/params.hpp>
 #include <taut/impl/untangle/proofs/infeasibility.hpp>
 #include <taut/impl/untangle/regularized_newton.hpp>
 #include <taut/impl/untangle/result.hpp>
@@ -37,11 +36,10 @@ public:
     using map = std::vector<vec<D>>;
 
     /// Refers to the problem.
-    untangle_state(const untangle_problem<Element>& problem, const untangle_params& params,
-                   newton_maker<Element> newton)
+    untangle_state(const untangle_problem<Element>& problem, const run_limits& limits, newton_maker<Element> newton)
         : problem_(problem),
           newton_(std::move(newton)),
-          budget_(params.limits.time_limit, params.limits.observer),
+          budget_(limits.time_limit, limits.observer),
           best_(problem.initial),
           flips_(certified(best_))
     {

@@ -3,6 +3,7 @@
 
 #include <taut/impl/compute/queue.hpp>
 #include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/impl/core/observer.hpp>
 #include <taut/impl/untangle/params.hpp>
 #include <taut/impl/untangle/result.hpp>
 
@@ -17,9 +18,10 @@ namespace taut
 /// Newton's method runs on the device, except on small planar meshes, and the paper's operator is a further stage. In
 /// the plane that one comes last, as the others are more reliable, and in space early; untangle_params::stages gives
 /// another order.
+/// The observer is told the iteration, the fewest inverted elements so far (value) and seconds.
 /// Throws parameter_error for a problem or parameters that are not valid, device_error.
 template <class Element>
 untangle_result<Element> untangle(const queue& q, const untangle_problem<Element>& problem,
-                                  const untangle_params& params = {});
+                                  const untangle_params& params = {}, const run_limits& limits = {});
 
 } // namespace taut

@@ -61,12 +61,14 @@ namespace taut
 /// Throws parameter_error for a problem or parameters that are not valid.
 template <class Element>
 untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl::untangle_stages<Element> stages,
-                                  impl::newton_maker<Element> newton, const untangle_params& params = {})
+                                  impl::newton_maker<Element> newton, const untangle_params& params = {},
+                                  const run_limits& limits = {})
 {
     problem.validate();
     params.validate();
+    limits.validate();
     stages = impl::chosen(std::move(stages), params.stages);
-    impl::untangle_state<Element> state(problem, params, std::move(newton));
+    impl::untangle_state<Element> state(problem, limits, std::move(newton));
     untangle_result<Element> result;
     if (state.injective())
         result.stage = "initial";
@@ -78,7 +80,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
         if (!proof) result.stage = impl::run_stages(state, stages, params);
         if (state.proof())
         {
-            result.outcome = untangle_outcome::infeasible;
+            result.outcome = outcome::infeasible;
             result.reason = state.proof()->message;
             result.ids = state.proof()->ids;
         }
@@ -86,7 +88,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
 
     if (state.injective())
     {
-        result.outcome = untangle_outcome::injective;
+        result.outcome = outcome::valid;
         if constexpr (Element::dimension == 2)
             if (result.stage != "initial")
             {
@@ -98,7 +100,7 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
     result.flips =
         certify<Element::dimension>(problem.rest.cells(), std::span<const vec<Element::dimension>>(result.map), {},
                                     problem.rest.cells().size(), problem.owners);
-    if (result.outcome == untangle_outcome::gave_up)
+    if (result.outcome == outcome::gave_up)
     {
         result.ids = result.flips.flipped > 0 ? result.flips.ids : result.flips.branch_ids;
         const std::string left = impl::describe_defects<Element>(result.flips, problem.owners);
@@ -117,15 +119,16 @@ untangle_result<Element> untangle(const untangle_problem<Element>& problem, impl
 }
 
 /// Untangles a map with all stages that need no device.
-inline untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {})
+inline untangle_result<triangle> untangle(const untangle_problem<triangle>& problem, const untangle_params& params = {},
+                                          const run_limits& limits = {})
 {
     return untangle(problem, impl::host_stages(problem.outline_pinned()),
-                    impl::newton_maker<triangle>(impl::direct_newton), params);
+                    impl::newton_maker<triangle>(impl::direct_newton), params, limits);
 }
 inline untangle_result<tetrahedron> untangle(const untangle_problem<tetrahedron>& problem,
-                                             const untangle_params& params = {})
+                                             const untangle_params& params = {}, const run_limits& limits = {})
 {
-    return untangle(problem, impl::solid_host_stages(), impl::newton_maker<tetrahedron>(), params);
+    return untangle(problem, impl::solid_host_stages(), impl::newton_maker<tetrahedron>(), params, limits);
 }
 
 } // namespace taut

@@ -37,7 +37,7 @@ namespace taut
 
 template <class Element>
 untangle_result<Element> untangle(const queue& q, const untangle_problem<Element>& problem,
-                                  const untangle_params& params)
+                                  const untangle_params& params, const run_limits& limits)
 {
     auto newton = impl::newton_on_device<Element>(q);
     auto on_device = std::make_unique<impl::operator_stage<Element>>(q);
@@ -45,7 +45,7 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
     {
         auto stages = impl::host_stages(problem.outline_pinned());
         stages.push_back(std::move(on_device));
-        return untangle(problem, std::move(stages), std::move(newton), params);
+        return untangle(problem, std::move(stages), std::move(newton), params, limits);
     }
     else
     {
@@ -59,7 +59,7 @@ untangle_result<Element> untangle(const queue& q, const untangle_problem<Element
         stages.push_back(std::make_unique<impl::newton_stage<Element>>());
         stages.push_back(std::make_unique<impl::loading_stage<Element>>(q));
         if (!problem.outline_pinned()) std::swap(stages[3], stages[4]);
-        return untangle(problem, std::move(stages), std::move(newton), params);
+        return untangle(problem, std::move(stages), std::move(newton), params, limits);
     }
 }
 

@@ -176,30 +176,30 @@ std::vector<std::string> quick_stages(const untangle_params& params, std::vector
 
 /// Untangles again from the best map so far.
 template <class Element>
-void untangle_again(const queue& q, refined_problem<Element>& now, const untangle_params& how,
+void untangle_again(const queue& q, refined_problem<Element>& now, const untangle_params& how, const run_limits& limits,
                     untangle_result<Element>& found)
 {
     now.problem.initial = found.map;
-    auto next = untangle(q, now.problem, how);
+    auto next = untangle(q, now.problem, how, limits);
     next.stages.insert(next.stages.begin(), found.stages.begin(), found.stages.end());
     if (next.stage == "initial") next.stage = found.stage; // there was nothing left to do
     found = std::move(next);
 }
 
-/// Untangles around the elements that are still inverted, with the rest of the map fixed.
-template <class Element>
-void untangle_around(const queue& q, untangle_problem<Element> p, untangle_params how, const budget& clock,
+/// Untangles around the elements that are still inverted, with the rest of the map fixed. left: the present limits
+template <class Element, class Left>
+void untangle_around(const queue& q, untangle_problem<Element> p, untangle_params how, const Left& left,
                      untangle_result<Element>& found)
 {
     how.stages = quick_stages<Element>(how, {"harmonic", "operator", "newton"});
     how.rounds = std::min(how.rounds, 2);
     for (const int rings : {2, 4, 8})
     {
-        if (found.flips.flipped == 0 || !clock.in_time()) return;
+        const run_limits limits = left();
+        if (found.flips.flipped == 0 || !(limits.time_limit.count() > 0)) return;
         p.initial = found.map;
         const auto part = part_of(p, within_rings(p.rest, found.ids, rings));
-        how.limits.time_limit = clock.left();
-        auto local = untangle(q, part ? part->problem : p, how);
+        auto local = untangle(q, part ? part->problem : p, how, limits);
         found.stages.insert(found.stages.end(), local.stages.begin(), local.stages.end());
         auto map = part ? found.map : std::move(local.map);
         for (std::size_t k = 0; part && k < part->vertices.size(); ++k)
@@ -223,52 +223,56 @@ namespace taut
 /// Throws parameter_error as untangle() and refine_problem() do, device_error.
 template <class Element>
 impl::refined_untangling<Element> untangle(const queue& q, const untangle_problem<Element>& problem,
-                                           const untangle_params& params, const refine_params& refine)
+                                           const untangle_params& params, const run_limits& limits,
+                                           const refine_params& refine)
 {
-    const impl::budget clock(params.limits.time_limit);
+    limits.validate();
+    const impl::budget clock(limits.time_limit);
     bool refused = false;
     auto how = params;
-    if (params.limits.observer)
-        how.limits.observer = [&](const progress& p)
-        {
-            refused = refused || !params.limits.observer(p);
-            return !refused;
-        };
+    const auto left = [&]
+    {
+        run_limits rest{.time_limit = clock.left()};
+        if (limits.observer)
+            rest.observer = [&](const progress& p)
+            {
+                refused = refused || !limits.observer(p);
+                return !refused;
+            };
+        return rest;
+    };
     auto now = impl::refine_infeasible(problem, refine);
-    const auto left = [&](const untangle_result<Element>& found)
-    { return found.outcome == untangle_outcome::gave_up && !refused && clock.in_time(); };
+    const auto goes_on = [&](const untangle_result<Element>& found)
+    { return found.outcome == outcome::gave_up && !refused && clock.in_time(); };
     const bool splits = refine.rounds > 0;
-    how.limits.time_limit = clock.left();
     if (splits)
     {
         how.stages = impl::quick_stages<Element>(params, {"harmonic", "operator"});
         how.rounds = std::min(2, params.rounds);
     }
-    auto found = untangle(q, now.problem, how);
-    if (found.outcome == untangle_outcome::infeasible && !now.obstacle.empty()) found.reason = now.obstacle;
-    if (found.outcome != untangle_outcome::gave_up || !splits) return {std::move(found), std::move(now)};
+    auto found = untangle(q, now.problem, how, left());
+    if (found.outcome == outcome::infeasible && !now.obstacle.empty()) found.reason = now.obstacle;
+    if (found.outcome != outcome::gave_up || !splits) return {std::move(found), std::move(now)};
 
-    if (Element::dimension == 3 && params.stages.empty() && left(found))
+    if (Element::dimension == 3 && params.stages.empty() && goes_on(found))
     {
         how.stages = {problem.outline_pinned() ? "newton" : "lead"};
         how.rounds = 1;
-        how.limits.time_limit = clock.left();
-        impl::untangle_again(q, now, how, found);
+        impl::untangle_again(q, now, how, left(), found);
     }
     how.stages = params.stages;
     how.rounds = params.rounds;
-    for (int round = now.rounds; left(found) && round < refine.rounds && found.flips.flipped > 0; ++round)
+    for (int round = now.rounds; goes_on(found) && round < refine.rounds && found.flips.flipped > 0; ++round)
     {
         now.problem.initial = found.map;
         if (!impl::split_further(now, impl::splits_around(now.problem, found.ids).simplices, refine)) break;
         found.flips.flipped = found.flips.branched = now.problem.rest.cells().size();
         impl::take_better(now.problem, now.problem.initial, "initial", found);
-        impl::untangle_around(q, now.problem, how, clock, found);
+        impl::untangle_around(q, now.problem, how, left, found);
     }
-    if (found.outcome == untangle_outcome::gave_up)
+    if (found.outcome == outcome::gave_up)
     {
-        how.limits.time_limit = clock.left();
-        impl::untangle_again(q, now, how, found);
+        impl::untangle_again(q, now, how, left(), found);
     }
     found.seconds = clock.total();
     return {std::move(found), std::move(now)};

@@ -6,4 +6,4 @@
 #include <taut/impl/untangle/untangle_on_device.hpp>
 
 template taut::untangle_result<taut::tetrahedron> taut::untangle(const queue&, const untangle_problem<tetrahedron>&,
-                                                                 const untangle_params&);
+                                                                 const untangle_params&, const run_limits&);

@@ -69,8 +69,9 @@ inline void relax_cells(const atlas_run& run, const atlas_surface& of, laid_surf
     params.initial = start;
     params.max_iterations = std::min(params.max_iterations, 25);
     params.tolerance = std::max(params.tolerance, 1e-3);
-    if (!run.report.complete) params.limits.time_limit = budget::seconds(std::min(longest, part * run.clock.total()));
-    const auto maps = flatten_charts(run.device, own.charts, params);
+    run_limits limits;
+    if (!run.report.complete) limits.time_limit = budget::seconds(std::min(longest, part * run.clock.total()));
+    const auto maps = flatten_charts(run.device, own.charts, params, limits);
     const auto crossing = crossing_charts(own.charts, maps.uv);
     std::vector<idx> some, chart(wanted.size(), -1); // triangles of charts that lie on themselves; their charts
     for (std::size_t k = 0; k < maps.charts.size(); ++k)

@@ -34,8 +34,7 @@ inline void keep_apart(atlas_run& run, chart_set& set, std::vector<char>& bad, b
         parameterize_params params{.initial = {set.uv.begin() + first, set.uv.begin() + end},
                                    .placement = placement::as_solved,
                                    .holes = true,
-                                   .no_overlap = true,
-                                   .limits = run.limits("flatten")};
+                                   .no_overlap = true};
         if (roughly)
         {
             params.solve.stopping = rough_stopping();
@@ -44,7 +43,7 @@ inline void keep_apart(atlas_run& run, chart_set& set, std::vector<char>& bad, b
         }
         const mesh<triangle> chart = chart_alone(charts, k);
         if (!check(chart, {.one_boundary = false}).empty()) continue;
-        const auto map = parameterize(run.device, chart, params);
+        const auto map = parameterize(run.device, chart, params, run.limits("flatten"));
         if (!map) continue;
         std::copy(map.uv.begin(), map.uv.end(), set.uv.begin() + first);
         set.energy[k] = map.report.solve.value;
@@ -90,7 +89,7 @@ inline void take_apart(atlas_run& run, const atlas_surface& of, chart_set& set, 
 {
     atlas_report& report = run.report;
     if (!report.reason.empty()) return;
-    if (of.params.keep_charts)
+    if (of.params.keeps_charts())
     {
         const auto first = std::find(bad.begin(), bad.end(), char(1)) - bad.begin();
         report.reason = report.name_chart(of.first_triangle(set.charts, static_cast<std::size_t>(first))) +
@@ -113,7 +112,7 @@ inline void take_apart(atlas_run& run, const atlas_surface& of, chart_set& set, 
 inline void mend(atlas_run& run, const atlas_surface& of, chart_set& set, std::vector<char> bad)
 {
     keep_apart(run, set, bad);
-    if (!of.params.keep_charts && run.report.complete) bad = part_overlaps(of, set, std::move(bad));
+    if (!of.params.keeps_charts() && run.report.complete) bad = part_overlaps(of, set, std::move(bad));
     if (std::count(bad.begin(), bad.end(), char(1)) > 0) take_apart(run, of, set, bad, 0);
 }
 

@@ -36,7 +36,7 @@ struct seam_wishes
     /// Throws parameter_error. sides: of the surface
     void validate(std::size_t sides) const
     {
-        if (!(hide >= 0 && hide <= 1)) throw parameter_error("hide", "must be 0 to 1");
+        if (!(hide >= 0 && hide <= 1)) throw parameter_error("hide_seams", "must be 0 to 1");
         if (!(crease_angle >= 0 && crease_angle <= 180)) throw parameter_error("crease_angle", "must be 0 to 180");
         if (!weights.empty() && weights.size() != sides)
             throw parameter_error("weights", "empty or one number per side of the surface");

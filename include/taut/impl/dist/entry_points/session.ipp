@@ -10,7 +10,6 @@ namespace taut::dist
 
 template <class Element>
 session<Element>::session(MPI_Comm comm, const mesh_piece<Element>& piece, const deform_params<Element>& params)
-    : limits_(params.limits)
 {
     const impl::communicator all(comm);
     all.guarded([&] { body_ = std::make_unique<impl::shape_body<Element>>(all, piece, params); });
@@ -30,14 +29,9 @@ session<Element>& session<Element>::constrain(const constraints<Element>& wanted
 }
 
 template <class Element>
-result<Element> session<Element>::solve()
-{
-    return solve(limits_);
-}
-
-template <class Element>
 result<Element> session<Element>::solve(const run_limits& limits)
 {
+    body_->mesh_part().all.together([&] { limits.validate(); });
     result<Element> r;
     body_->mesh_part().all.guarded(
         [&]

@@ -135,8 +135,7 @@ session<Element> smoothing_session(MPI_Comm comm, const mesh_piece<Element>& pie
                                .shapes = target_shapes::regular,
                                .solve = params.solve,
                                .solver = params.solver,
-                               .queue = params.queue,
-                               .limits = params.limits};
+                               .queue = params.queue};
     for (const vec3& x : params.initial) how.initial.push_back(vec<D>(x));
     // Cells count alike, and so do corners, as in smoothing by one process.
     mesh_piece<Element> unweighted;
@@ -163,9 +162,10 @@ namespace taut::dist
 {
 
 template <class Element>
-result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params)
+result<Element> smooth(MPI_Comm comm, const mesh_piece<Element>& piece, const smooth_params& params,
+                       const run_limits& limits)
 {
-    return impl::smoothing_session<Element>(comm, piece, params).solve();
+    return impl::smoothing_session<Element>(comm, piece, params).solve(limits);
 }
 
 } // namespace taut::dist

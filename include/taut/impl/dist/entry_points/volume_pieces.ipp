@@ -78,13 +78,13 @@ void volume_pieces::write(const std::filesystem::path& path, const std::vector<v
 }
 
 report deform(MPI_Comm comm, const std::filesystem::path& input, const std::filesystem::path& output,
-              const deform_params<tetrahedron>& params, const std::vector<std::string>& fixed)
+              const deform_params<tetrahedron>& params, const std::vector<std::string>& fixed, const run_limits& limits)
 {
     const volume_pieces volume(comm, input);
     auto how = params;
     for (const auto& group : fixed)
         for (const std::int64_t v : volume.members(group)) how.constraints.pin(v, volume.point(v));
-    auto found = session<tetrahedron>(comm, volume.piece(), how).solve();
+    auto found = session<tetrahedron>(comm, volume.piece(), how).solve(limits);
     if (found) volume.write(output, found.x);
     return std::move(found.report);
 }

@@ -41,7 +41,7 @@ struct laid_feature
 inline laid_feature lay_feature(queue& q, const surface_region& region, std::span<const double> from_rim, double most,
                                 const landing_place& place, std::span<const vec2> rim_uv, const run_limits& limits)
 {
-    const auto map = parameterize(q, region.surface, {.constraints = rim_pins(region, rim_uv), .limits = limits});
+    const auto map = parameterize(q, region.surface, {.constraints = rim_pins(region, rim_uv)}, limits);
     if (!map)
         throw paste_error("the feature has no map with its rim on the target, which a soft seam needs: " +
                           map.reason() + "; choose softness 0, or another vertex, radius or scale");

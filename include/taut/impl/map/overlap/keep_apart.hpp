@@ -63,12 +63,11 @@ private:
     {
         auto [plane, how] = scaffolded_.around(x_);
         how.solve.stopping.max_iterations = std::min(most_steps, left_);
-        how.limits.time_limit = run_.clock.left();
-        how.limits.observer = observer();
+        const run_limits limits{run_.clock.left(), observer()};
         session_result<triangle> moved;
         try
         {
-            moved = session_run<triangle>(run_.queue, shape_setup(plane, how)).solve({});
+            moved = session_run<triangle>(run_.queue, shape_setup(plane, how, limits)).solve({});
         }
         catch (const mesh_error&)
         {

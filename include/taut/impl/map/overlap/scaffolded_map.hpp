@@ -104,7 +104,6 @@ public:
         made.how.energy = run_.params.energy;
         made.how.weights = run_.params.weights;
         made.how.precision = run_.params.precision;
-        made.how.untangling = run_.params.untangling;
         made.how.targets = targets_;
         double around = 0; // what the scaffold would count with weights of 1
         for (const auto& cell : s.cells)

@@ -27,11 +27,11 @@ inline start_map start_apart(const map_run& run, const std::vector<std::vector<i
     }
     constexpr double extreme = 1e8; // isometric energy: beyond, triangles are flat to the precision of numbers
     const auto proceed = [&run] { return run.clock.proceed(); };
-    start_map map = barycentric_map(in.surface, in.sides, run.params.barycentric, elimination_solver(), proceed);
+    start_map map = barycentric_map(in.surface, in.sides, run.params.barycentric(), elimination_solver(), proceed);
     if ((!usable(map) || map.distortion.measure > extreme) && run.vertices() <= largest_direct)
     {
         start_map other = robust_start(
-            in.surface, {.boundary = run.params.barycentric.boundary, .fixed_boundary = true, .proceed = proceed});
+            in.surface, {.boundary = run.params.barycentric().boundary, .fixed_boundary = true, .proceed = proceed});
         if (usable(other) && (!usable(map) || better(other, map))) map = std::move(other);
     }
     run.held.bring_near(map.uv);

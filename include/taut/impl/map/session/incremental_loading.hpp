@@ -58,9 +58,8 @@ public:
     using coordinates = std::vector<vec<D>>;
 
     /// proof_sought: whether a proof was sought that there is no such map. Refers to its arguments.
-    incremental_loading(running_map<Element>& map, session_call& call, const untangle_params& untangling,
-                        bool& proof_sought)
-        : map_(map), call_(call), untangling_(untangling), proof_sought_(proof_sought)
+    incremental_loading(running_map<Element>& map, session_call& call, bool& proof_sought)
+        : map_(map), call_(call), proof_sought_(proof_sought)
     {
     }
 
@@ -92,7 +91,6 @@ private:
 
     running_map<Element>& map_;
     session_call& call_;
-    const untangle_params& untangling_;
     bool& proof_sought_;
     stage_report did_;     ///< report of all steps so far
     bool guessed_ = false; ///< an initial guess was tried on this path
@@ -128,7 +126,7 @@ bool incremental_loading<Element>::guess(const coordinates& last)
     if constexpr (D == 3 && Element::oriented)
     {
         const auto how = map_.on().device().has_fp64() ? precision::mixed : precision::fp32;
-        auto found = guess_maker(map_.on(), call_.limited(untangling_), how).make(map_.problem(last, true));
+        auto found = guess_maker(map_.on(), call_.left(), how).make(map_.problem(last, true));
         call_.clock.stages.append(found.stages);
         call_.book(&session_seconds::follow, {.stage = "draft",
                                               .vertices = found.vertices,
@@ -203,16 +201,15 @@ bool incremental_loading<Element>::untangled()
     int before = 0, now = 0; // iterations of untanglings that have ended, and of the one at work
     if (call_.lasts(20))
     {
-        const repair_limits limits{
-            .whole = call_.lasts(100),
-            .time = std::min(call_.clock.left(), std::chrono::duration<double>(1000 * call_.step_seconds)),
-            .ask = [&](const progress& p)
+        const run_limits limits{
+            .time_limit = std::min(call_.clock.left(), std::chrono::duration<double>(1000 * call_.step_seconds)),
+            .observer = [&](const progress& p)
             {
                 if (p.iteration < now) before += now;
                 now = p.iteration;
                 return before + now < call_.steps_left && call_.clock.ask({.iterate = false});
             }};
-        auto found = repaired(map_.on(), map_.problem(map_.coordinates(), true), untangling_, limits);
+        auto found = repaired(map_.on(), map_.problem(map_.coordinates(), true), limits, call_.lasts(100));
         call_.count(before + now);
         done = bool(found);
         if (done)

@@ -113,11 +113,9 @@ class guess_maker
 public:
     using problem = untangle_problem<tetrahedron>;
 
-    guess_maker(const queue& q, const untangle_params& how, precision arithmetic)
-        : queue_(q), how_(how), clock_(how.limits.time_limit), arithmetic_(arithmetic)
+    guess_maker(const queue& q, const run_limits& limits, precision arithmetic)
+        : queue_(q), clock_(limits.time_limit), ask_(limits.observer), arithmetic_(arithmetic)
     {
-        how_.rounds = 1;
-        how_.stages = {"lead"}; // others leave elements next to flat, which cut the steps that follow
     }
 
     /// Predicts a shape from the current one, which is injective (`draft` of the problem), with fixed vertices at their
@@ -195,9 +193,8 @@ private:
     /// Untangles to an injective map, or none.
     std::vector<vec3> untangled(const problem& p, mended_guess& booked) const
     {
-        auto how = how_;
-        how.limits.time_limit = clock_.left();
-        auto result = untangle(queue_, p, how);
+        // Other stages leave elements next to flat, which cut the steps that follow.
+        auto result = untangle(queue_, p, {.stages = {"lead"}, .rounds = 1}, {clock_.left(), ask_});
         booked.stages.insert(booked.stages.end(), result.stages.begin(), result.stages.end());
         return result ? std::move(result.map) : std::vector<vec3>();
     }
@@ -209,15 +206,14 @@ private:
         running_map<tetrahedron> running(queue_, of);
         running.fixed = {p.held, p.initial};
         running.load(found.x, arithmetic_);
-        const solve::impl::stopping_params enough{
-            .gradient_tolerance = gradient, .max_iterations = steps, .time_limit = clock_.left()};
-        found.steps += running.minimise({.stopping = enough}, how_.limits.observer).iterations;
+        const solve::impl::stopping_params enough{.gradient_tolerance = gradient, .max_iterations = steps};
+        found.steps += running.minimise({.stopping = enough}, {clock_.left(), ask_}).iterations;
         found.x = running.coordinates();
     }
 
     queue queue_;
-    untangle_params how_;
     budget clock_;
+    observer ask_;
     precision arithmetic_;
 };
 

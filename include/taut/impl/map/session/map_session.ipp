@@ -13,7 +13,8 @@ namespace taut::impl
 {
 
 /// Sets up the session of a map of a surface, with the start of parameterize(). Throws as that.
-inline session_setup<triangle> map_setup(const queue& q, const mesh<triangle>& m, const parameterize_params& given)
+inline session_setup<triangle> map_setup(const queue& q, const mesh<triangle>& m, const parameterize_params& given,
+                                         const run_limits& limits)
 {
     struct
     {
@@ -21,6 +22,7 @@ inline session_setup<triangle> map_setup(const queue& q, const mesh<triangle>& m
         run_surface in;
     } both{validated(given), {m, given}};
     const auto& [params, in] = both;
+    limits.validate();
     session_setup<triangle> setup{.of = {.rest = in.surface,
                                          .ideal = in.ideal,
                                          .energy = params.energy,
@@ -30,8 +32,7 @@ inline session_setup<triangle> map_setup(const queue& q, const mesh<triangle>& m
                                   .still = in.fixed_boundary(params.boundary),
                                   .precision = params.precision,
                                   .solve = params.solve,
-                                  .untangling = params.untangling,
-                                  .limits = params.limits};
+                                  .limits = limits};
     setup.first = [q, both = std::move(both)](const constraints<triangle>& wanted, run_clock& clock)
     {
         auto params = both.params;
@@ -60,12 +61,12 @@ namespace taut
 {
 
 template <class Element>
-session<Element>::session(queue& q, const mesh<Element>& m,
-                          const parameterize_params& params) requires std::same_as<Element, triangle>
-    : body_(std::make_unique<impl::session_run<Element>>(q, impl::map_setup(q, m, params)))
+session<Element>::session(queue& q, const mesh<Element>& m, const parameterize_params& params,
+                          const run_limits& limits) requires std::same_as<Element, triangle>
+    : body_(std::make_unique<impl::session_run<Element>>(q, impl::map_setup(q, m, params, limits)))
 {
 }
 
-template session<triangle>::session(queue&, const mesh<triangle>&, const parameterize_params&);
+template session<triangle>::session(queue&, const mesh<triangle>&, const parameterize_params&, const run_limits&);
 
 } // namespace taut

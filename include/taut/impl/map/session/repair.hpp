@@ -52,33 +52,23 @@ std::vector<char> around_moved(const untangle_problem<Element>& p, double width)
     return near;
 }
 
-/// Limits of an untangling in a session.
-struct repair_limits
-{
-    bool whole = false; ///< the whole mesh may be untangled, too
-    std::chrono::duration<double> time;
-    observer ask;
-};
-
 /// Untangles a map whose fixed vertices could not be brought to their targets by steps; none where that fails. It
 /// differs from the current one around these vertices alone, if that suffices. problem: the fixed vertices at their
-/// targets in `initial`, the current injective map as `draft`.
+/// targets in `initial`, the current injective map as `draft`. whole: the whole mesh may be untangled, too.
 template <class Element>
 std::optional<std::vector<vec<Element::dimension>>> repaired(const queue& q, const untangle_problem<Element>& problem,
-                                                             untangle_params how, const repair_limits& limits)
+                                                             const run_limits& limits, bool whole)
 {
     constexpr int D = Element::dimension;
-    const budget clock(limits.time);
-    how.limits.observer = limits.ask;
+    const budget clock(limits.time_limit);
+    const untangle_params once{.rounds = 1};
     for (const double width : {1.0, 2.0})
     {
         const auto part = part_of(problem, around_moved(problem, width));
         if (!part || !clock.in_time()) break;
-        auto pull = how;
+        auto pull = once;
         if (D == 2) pull.stages = {"pull"}; // makes no branch points, and ends soon
-        pull.rounds = 1;
-        pull.limits.time_limit = clock.left();
-        const auto found = untangle(q, part->problem, pull);
+        const auto found = untangle(q, part->problem, pull, {clock.left(), limits.observer});
         if (!found) continue;
         auto map = problem.draft;
         for (std::size_t k = 0; k < part->vertices.size(); ++k)
@@ -86,10 +76,8 @@ std::optional<std::vector<vec<Element::dimension>>> repaired(const queue& q, con
         // The rim is of the whole: the map may wind around it twice.
         if (certify<D>(problem.rest.cells(), std::span<const vec<D>>(map), {}, 0, problem.owners)) return map;
     }
-    if (!limits.whole || !clock.in_time()) return std::nullopt;
-    how.rounds = 1;
-    how.limits.time_limit = clock.left();
-    auto found = untangle(q, problem, how);
+    if (!whole || !clock.in_time()) return std::nullopt;
+    auto found = untangle(q, problem, once, {clock.left(), limits.observer});
     if (!found) return std::nullopt;
     return std::move(found.map);
 }

@@ -7,7 +7,6 @@
 
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/session_result.hpp>
-#include <taut/impl/untangle/params.hpp>
 
 namespace taut::impl
 {
@@ -41,12 +40,10 @@ struct session_call
         clock.stages.add(std::move(did));
     }
 
-    /// Parameters of an untangling within this call.
-    untangle_params limited(untangle_params how)
+    /// Limits of an untangling within this call.
+    run_limits left()
     {
-        how.limits.time_limit = clock.left();
-        how.limits.observer = [this](const progress&) { return clock.ask({.iterate = false}); };
-        return how;
+        return {clock.left(), [this](const progress&) { return clock.ask({.iterate = false}); }};
     }
 };
 

@@ -182,9 +182,9 @@ bool session_run<Element>::untangled(session_call& call, certificate& flips)
     session_report& r = last.report;
     if constexpr (Element::oriented)
     {
-        auto found = untangle(map_.on(), map_.problem(setup_.start, false), call.limited(setup_.untangling));
+        auto found = untangle(map_.on(), map_.problem(setup_.start, false), {}, call.left());
         call.clock.stages.append(found.stages);
-        r.outcome = found.outcome == untangle_outcome::infeasible ? outcome::infeasible : outcome::gave_up;
+        r.outcome = found.outcome == outcome::infeasible ? outcome::infeasible : outcome::gave_up;
         r.reason = std::move(found.reason);
         r.ids = std::move(found.ids);
         if (!found) return false;
@@ -231,8 +231,7 @@ void session_run<Element>::advance(session_call& call)
     call.clock.has_result(true);
     call.book(&session_seconds::constrain, {.stage = "constrain"});
     bool arrived = map_.fixed.gap(last.x).vertex < 0;
-    if (!arrived && r.reason.empty())
-        arrived = incremental_loading(map_, call, setup_.untangling, proof_sought_).run(last.x);
+    if (!arrived && r.reason.empty()) arrived = incremental_loading(map_, call, proof_sought_).run(last.x);
     if (r.steps == 0 || (arrived && call.may_step())) minimise(call, arrived);
     take(call);
 }
@@ -260,16 +259,15 @@ solve::report session_run<Element>::minimised(session_call& call)
     most = std::min(most, call.steps_left);
     // Float next to a barrier may go on for as long as it is let, with nothing gained.
     if (map_.may_be_doubled()) most = std::min(most, most_in_float);
-    how.stopping.time_limit =
-        std::chrono::duration<double>(std::max(call.clock.left().count() - call.step_seconds, 1e-9));
-    auto found = map_.minimise(how,
-                               [&](progress p)
-                               {
-                                   const progress now = map_.seen();
-                                   p.coordinates = now.coordinates;
-                                   p.positions = now.positions;
-                                   return call.clock.ask(p);
-                               });
+    const auto ask = [&](progress p)
+    {
+        const progress now = map_.seen();
+        p.coordinates = now.coordinates;
+        p.positions = now.positions;
+        return call.clock.ask(p);
+    };
+    const std::chrono::duration<double> left(std::max(call.clock.left().count() - call.step_seconds, 0.0));
+    auto found = map_.minimise(how, {left, ask});
     call.count(found.iterations);
     return found;
 }

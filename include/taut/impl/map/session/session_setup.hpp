@@ -5,13 +5,13 @@
 #include <vector>
 
 #include <taut/impl/constrain/constraints.hpp>
+#include <taut/impl/constrain/slide.hpp>
 #include <taut/impl/core/observer.hpp>
 #include <taut/impl/map/run_clock.hpp>
 #include <taut/impl/map/session_result.hpp>
 #include <taut/impl/objective/mapped_mesh.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
-#include <taut/impl/untangle/params.hpp>
 
 namespace taut::impl
 {
@@ -39,7 +39,6 @@ struct session_setup
     map start{};                            ///< first map, untangled where it is not injective; empty: `first`
     taut::precision precision = precision::automatic;
     solve::params solve{};
-    untangle_params untangling{};
     run_limits limits{}; ///< time_limit: of the first map
 
     /// Computes the first map under constraints.

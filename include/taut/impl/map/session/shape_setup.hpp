@@ -83,10 +83,12 @@ ideal_elements<Element> target_elements(const mesh<Element>& m, const deform_par
 
 /// Sets up the session of a deforming shape. Throws mesh_error, parameter_error, constraint_error.
 template <class Element>
-session_setup<Element> shape_setup(const mesh<Element>& m, const deform_params<Element>& given)
+session_setup<Element> shape_setup(const mesh<Element>& m, const deform_params<Element>& given,
+                                   const run_limits& limits)
 {
     constexpr int D = Element::dimension;
     auto params = validated(given);
+    limits.validate();
     const double unit = unit_scale(m);
     const auto require = [n = m.points().size()](std::size_t count, const char* field)
     {
@@ -127,12 +129,11 @@ session_setup<Element> shape_setup(const mesh<Element>& m, const deform_params<E
             .start = std::move(start),
             .precision = params.precision,
             .solve = params.solve,
-            .untangling = params.untangling,
-            .limits = params.limits};
+            .limits = limits};
 }
 
 /// Sets up the session of a thin shell: a shape of hinges, certified by the triangles of the surface.
-inline session_setup<hinge> shell_setup(const thin_shell& shell, const shell_params& params)
+inline session_setup<hinge> shell_setup(const thin_shell& shell, const shell_params& params, const run_limits& limits)
 {
     params.validate();
     auto setup = shape_setup<hinge>(shell.hinges(),
@@ -143,14 +144,15 @@ inline session_setup<hinge> shell_setup(const thin_shell& shell, const shell_par
                                      .constraints = params.constraints,
                                      .initial = params.initial,
                                      .precision = params.precision,
-                                     .solve = params.solve,
-                                     .limits = params.limits});
+                                     .solve = params.solve},
+                                    limits);
     setup.of.surface = shell.surface();
     return setup;
 }
 
 // Compiled once, with the bodies.
-extern template session_setup<triangle> shape_setup(const mesh<triangle>&, const deform_params<triangle>&);
+extern template session_setup<triangle> shape_setup(const mesh<triangle>&, const deform_params<triangle>&,
+                                                    const run_limits&);
 
 } // namespace taut::impl
 

@@ -6,6 +6,6 @@
 namespace taut::impl
 {
 
-template session_setup<triangle> shape_setup(const mesh<triangle>&, const deform_params<triangle>&);
+template session_setup<triangle> shape_setup(const mesh<triangle>&, const deform_params<triangle>&, const run_limits&);
 
 } // namespace taut::impl

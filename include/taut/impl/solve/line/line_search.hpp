@@ -26,13 +26,13 @@ search_result search(Line& phi, double first, const line_search_params& p, bool 
     switch (p.method)
     {
     case line_search_method::strong_wolfe:
-        return strong_wolfe(phi, first, p.wolfe, p.tuning.max_evaluations);
+        return strong_wolfe(phi, first, p.tuning.wolfe, p.tuning.max_evaluations);
     case line_search_method::backtracking:
-        return backtracking(phi, first, p.wolfe, p.tuning.shrink, p.tuning.max_evaluations);
+        return backtracking(phi, first, p.tuning.wolfe, p.tuning.shrink, p.tuning.max_evaluations);
     case line_search_method::hybrid:
         break;
     }
-    return hybrid(phi, first, p.wolfe, p.tuning.exact, careful);
+    return hybrid(phi, first, p.tuning.wolfe, p.tuning.exact, careful);
 }
 
 } // namespace taut::solve::impl

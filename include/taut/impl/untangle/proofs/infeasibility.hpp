@@ -8,7 +8,7 @@
 #include <taut/impl/core/name_in.hpp>
 #include <taut/impl/mesh/describe.hpp>
 
-namespace taut
+namespace taut::impl
 {
 
 /// Kinds of proof that pins admit no map of positive elements. The comment says what the ids of a finding are.
@@ -38,11 +38,6 @@ constexpr const char* to_string(infeasibility_kind kind)
         kind);
 }
 
-} // namespace taut
-
-namespace taut::impl
-{
-
 /// One proof or warning, with the ids it concerns, and a sentence with the remedy.
 struct infeasibility_finding
 {
@@ -54,6 +49,8 @@ struct infeasibility_finding
 /// Proof that pins are infeasible, found before anything is solved.
 struct infeasibility
 {
+    using enum infeasibility_kind; // so that a kind is proof.empty_star, say
+
     std::vector<infeasibility_finding> proofs;   ///< each is enough: no map is locally injective
     std::vector<infeasibility_finding> warnings; ///< properties that no map with these pins has
 
