@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Kernel caches of tests. PoCL's is not safe between processes, and half of the kernels are those of several tests: a test has
 # a cache of its own, or takes turns with its group, filled with what the device tests have compiled (support/kernels.sh).
-set(taut_kernels sh ${CMAKE_CURRENT_LIST_DIR}/support/kernels.sh ${CMAKE_BINARY_DIR}/pocl/shared)
+# (Examples and Python's tests are no folders below this one.)
+set(taut_kernels sh ${CMAKE_CURRENT_LIST_DIR}/support/kernels.sh ${CMAKE_BINARY_DIR}/pocl/shared CACHE INTERNAL "")
 
 # What taut keeps for drivers that keep nothing is safe between processes: one folder for all.
-set(taut_programs TAUT_CACHE_DIR=${CMAKE_BINARY_DIR}/programs)
+set(taut_programs TAUT_CACHE_DIR=${CMAKE_BINARY_DIR}/programs CACHE INTERNAL "")
 
 # A test with a cache of its own.
 function(taut_own_kernel_cache test)
