@@ -181,7 +181,7 @@ TEST_CASE("needles around one vertex: they come into few squares of a grid, and 
         patch.cells.push_back(cells[at(c)]);
         for (const idx v : cells[at(c)]) uv.emplace_back(points[at(v)]);
     }
-    CHECK(triangle_grid(rest, uv).entries().size() < 200 * around); // 2,400,000 in their boxes
+    CHECK(triangle_grid(rest, uv).inside().items.size() < 200 * around); // 2,400,000 in their boxes
     const std::vector<idx> one(at(around), 0);
     CHECK(overlapping_pairs(rest, uv, one).empty());
     for (idx v = 0; v <= around; ++v)
