@@ -437,6 +437,29 @@ TEST_CASE("short cutting: noise that coarser surfaces do not show makes a surfac
     }
 }
 
+TEST_CASE("short cutting: of a surface of many handles, the loops alone are known to be too long")
+{
+    const auto plain = test::box(4), pierced = test::pierced_plate(3, 4);
+    CHECK(least_loops(plain, facets(plain)) == 0);
+    const auto least = [](const mesh<triangle>& m)
+    {
+        const auto [a, b] = std::pair(m.points()[0], m.points()[1]);
+        double shortest = glm::distance(a, b);
+        for (const auto& t : m.cells())
+            shortest = std::min(shortest, glm::distance(m.points()[at(t[0])], m.points()[at(t[1])]));
+        return shortest;
+    };
+    CHECK(least_loops(pierced, facets(pierced)) == doctest::Approx(6 * least(pierced)));
+    const auto many = test::pierced_plate(1000, 1);
+    const auto f = facets(many);
+    budget unlimited;
+    short_cutting cutting(many, f, {.coarse = 300}, unlimited);
+    cutting.run();
+    const auto unfound = cutting.unfound();
+    CHECK(std::find(unfound.begin(), unfound.end(), char(0)) == unfound.end());
+    CHECK(cutting.area() == doctest::Approx(area_of(many, 0, many.cell_count())));
+}
+
 TEST_CASE("strained cuts: a surface is flat when they lead to all of its vertices")
 {
     const rest_surface rest = rest_of(limbs(3));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <numeric>
@@ -21,6 +22,7 @@
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/parallel.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 namespace taut::impl
 {
@@ -35,6 +37,29 @@ struct cutting_params
     bool part = true;                     ///< charts that lie on themselves are parted
     idx coarse = 5000;                    ///< triangles of the surfaces that are searched, about
 };
+
+/// Of the seams that open the handles of a connected surface, the length at least: one edge for each of the loops, two
+/// a handle.
+inline double least_loops(const mesh<triangle>& m, const facet_table& f)
+{
+    std::vector<double> edges;
+    std::ptrdiff_t border = 0;
+    for (std::size_t s = 0; s < f.twin.size(); ++s)
+    {
+        border += f.twin[s] < 0;
+        if (f.twin[s] >= static_cast<idx>(s)) continue;
+        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
+        edges.push_back(
+            glm::distance(m.points()[static_cast<std::size_t>(a)], m.points()[static_cast<std::size_t>(b)]));
+    }
+    // By Euler, V - E + F = 2 - 2 handles - borders.
+    const auto borders = border > 0 ? boundary_loops(m, f).size() : 0;
+    const auto loops = 2 + static_cast<std::ptrdiff_t>(edges.size()) - m.vertex_count() - m.cell_count() -
+                       static_cast<std::ptrdiff_t>(borders);
+    const auto last = edges.begin() + std::clamp<std::ptrdiff_t>(loops, 0, std::ssize(edges));
+    if (last != edges.end()) std::nth_element(edges.begin(), last, edges.end());
+    return std::accumulate(edges.begin(), last, 0.0);
+}
 
 /// Short seams of a surface of any number of components: a search on a coarse surface for each, led back over the
 /// surface itself.
@@ -138,7 +163,7 @@ public:
     {
         double sum = 0;
         for (const auto& p : searches_)
-            if (p && p->rest) sum += p->rest->total;
+            if (p) sum += p->area;
         return sum;
     }
 
@@ -199,7 +224,7 @@ private:
         bool coarser = false, noisy = false; // noisy: in small patches already, which coarser ones do not show
         std::optional<rest_surface> rest;
         std::unique_ptr<seam_search> search;
-        double bound = 4, price = 0;
+        double bound = 4, price = 0, area = 0;
 
         bool rough() const { return noisy || search->rough(); }
     };
@@ -244,6 +269,8 @@ private:
         piece_search& p = *searches_[k];
         p.surface = chart_alone(pieces_.charts, k);
         p.facets = facets(*p.surface);
+        p.area = area_of(*p.surface, 0, p.surface->cell_count());
+        if (least_loops(*p.surface, p.facets) > seam_search::most_loops * std::sqrt(p.area)) return;
         coarse_surface coarse =
             make_coarse(*p.surface, p.facets,
                         p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count(),
@@ -258,6 +285,7 @@ private:
         p.origins = std::move(coarse.origins);
         const idx first_span = span_small_holes(coarse);
         p.rest = rest_surface::of(mesh<triangle>(std::move(coarse.points), std::move(coarse.cells)), first_span);
+        p.area = p.rest->total;
         if (factors_.empty() && (p.coarser || together_.empty())) return;
         const auto price = fine_prices(k);
         if (p.coarser)
