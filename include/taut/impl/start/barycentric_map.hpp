@@ -74,8 +74,9 @@ inline bool better(const start_map& a, const start_map& b, double factor = 1)
 ///
 /// The polygon is centred at the origin, counter-clockwise, with the area of the surface. Further loops are holes: each
 /// is spanned by a cone whose apex is solved for as well, so that the theorem holds, and then dropped.
-/// f: facets(m). solver: a callable std::vector<vec2>(const barycentric_system&).
-/// Throws mesh_error (closed_surface, degenerate_cell), parameter_error, `error` (weights, solver).
+/// f: facets(m). solver: a callable std::vector<vec2>(const barycentric_system&). One that stops ends with the map of
+/// the round before; without one, elimination_solver::stopped passes through. Throws mesh_error (closed_surface,
+/// degenerate_cell), parameter_error, `error` (weights, solver).
 template <class Solver = elimination_solver>
 start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const barycentric_params& params,
                           Solver solver = {}, const std::function<bool()>& proceed = {})
@@ -118,7 +119,16 @@ start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const b
         if (round > 0 && proceed && !proceed()) break;
         if (round > 0) impl::weaken_stretched(pull, m, ideal, next.uv);
         const auto system = make_barycentric_system(points, cells, fixed, next.uv, params.weights, pull);
-        const std::vector<vec2> x = solver(system);
+        std::vector<vec2> x;
+        try
+        {
+            x = solver(system);
+        }
+        catch (const elimination_solver::stopped&)
+        {
+            if (round == 0) throw;
+            break;
+        }
         for (std::size_t i = 0; i < x.size(); ++i) next.uv[static_cast<std::size_t>(system.unknown[i])] = x[i];
         next.residual = impl::mean_residual(system, x) / std::sqrt(area);
         next.assess(m, ideal);
