@@ -68,6 +68,22 @@ inline bool better(const start_map& a, const start_map& b, double factor = 1)
     return a.distortion.measure < factor * b.distortion.measure;
 }
 
+/// Solves the system of a round. False if the solver stopped, but for the first round, which has no map before it.
+template <class Solver>
+bool solve_round(Solver& solver, const barycentric_system& system, int round, std::vector<vec2>& x)
+{
+    try
+    {
+        x = solver(system);
+    }
+    catch (const elimination_solver::stopped&)
+    {
+        if (round == 0) throw;
+        return false;
+    }
+    return true;
+}
+
 /// Barycentric map of a surface that has passed validate() with `one_boundary` false: the longest boundary loop on a
 /// convex polygon, every other vertex at a positive mean of its neighbours. Injective in exact arithmetic (Tutte 1963,
 /// Floater 2003); in rounded arithmetic it is checked, and start_map::flips is what the check found.
@@ -120,15 +136,7 @@ start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const b
         if (round > 0) impl::weaken_stretched(pull, m, ideal, next.uv);
         const auto system = make_barycentric_system(points, cells, fixed, next.uv, params.weights, pull);
         std::vector<vec2> x;
-        try
-        {
-            x = solver(system);
-        }
-        catch (const elimination_solver::stopped&)
-        {
-            if (round == 0) throw;
-            break;
-        }
+        if (!impl::solve_round(solver, system, round, x)) break;
         for (std::size_t i = 0; i < x.size(); ++i) next.uv[static_cast<std::size_t>(system.unknown[i])] = x[i];
         next.residual = impl::mean_residual(system, x) / std::sqrt(area);
         next.assess(m, ideal);

@@ -22,7 +22,6 @@
 #include <taut/impl/atlas/surface_part.hpp>
 #include <taut/impl/core/budget.hpp>
 #include <taut/impl/core/parallel.hpp>
-#include <taut/impl/mesh/boundary.hpp>
 
 namespace taut::impl
 {
@@ -37,29 +36,6 @@ struct cutting_params
     bool part = true;                     ///< charts that lie on themselves are parted
     idx coarse = 5000;                    ///< triangles of the surfaces that are searched, about
 };
-
-/// Of the seams that open the handles of a connected surface, the length at least: one edge for each of the loops, two
-/// a handle.
-inline double least_loops(const mesh<triangle>& m, const facet_table& f)
-{
-    std::vector<double> edges;
-    std::ptrdiff_t border = 0;
-    for (std::size_t s = 0; s < f.twin.size(); ++s)
-    {
-        border += f.twin[s] < 0;
-        if (f.twin[s] >= static_cast<idx>(s)) continue;
-        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
-        edges.push_back(
-            glm::distance(m.points()[static_cast<std::size_t>(a)], m.points()[static_cast<std::size_t>(b)]));
-    }
-    // By Euler, V - E + F = 2 - 2 handles - borders.
-    const auto borders = border > 0 ? boundary_loops(m, f).size() : 0;
-    const auto loops = 2 + static_cast<std::ptrdiff_t>(edges.size()) - m.vertex_count() - m.cell_count() -
-                       static_cast<std::ptrdiff_t>(borders);
-    const auto last = edges.begin() + std::clamp<std::ptrdiff_t>(loops, 0, std::ssize(edges));
-    if (last != edges.end()) std::nth_element(edges.begin(), last, edges.end());
-    return std::accumulate(edges.begin(), last, 0.0);
-}
 
 /// Short seams of a surface of any number of components: a search on a coarse surface for each, led back over the
 /// surface itself.
