@@ -181,7 +181,7 @@ TEST_CASE("needles around one vertex: they come into few squares of a grid, and 
         patch.cells.push_back(cells[at(c)]);
         for (const idx v : cells[at(c)]) uv.emplace_back(points[at(v)]);
     }
-    CHECK(triangle_grid(rest, uv).entries().size() < 200 * around); // 2,400,000 in their boxes
+    CHECK(triangle_grid(rest, uv).inside().items.size() < 200 * around); // 2,400,000 in their boxes
     const std::vector<idx> one(at(around), 0);
     CHECK(overlapping_pairs(rest, uv, one).empty());
     for (idx v = 0; v <= around; ++v)
@@ -435,6 +435,29 @@ TEST_CASE("short cutting: noise that coarser surfaces do not show makes a surfac
         cutting.adjust(-0.05, false);
         if (cutting.rough()) CHECK(cutting.seams() == before); // those for what is large stay
     }
+}
+
+TEST_CASE("short cutting: of a surface of many handles, the loops alone are known to be too long")
+{
+    const auto plain = test::box(4), pierced = test::pierced_plate(3, 4);
+    CHECK(least_loops(plain, facets(plain)) == 0);
+    const auto least = [](const mesh<triangle>& m)
+    {
+        const auto [a, b] = std::pair(m.points()[0], m.points()[1]);
+        double shortest = glm::distance(a, b);
+        for (const auto& t : m.cells())
+            shortest = std::min(shortest, glm::distance(m.points()[at(t[0])], m.points()[at(t[1])]));
+        return shortest;
+    };
+    CHECK(least_loops(pierced, facets(pierced)) == doctest::Approx(6 * least(pierced)));
+    const auto many = test::pierced_plate(1000, 1);
+    const auto f = facets(many);
+    budget unlimited;
+    short_cutting cutting(many, f, {.coarse = 300}, unlimited);
+    cutting.run();
+    const auto unfound = cutting.unfound();
+    CHECK(std::find(unfound.begin(), unfound.end(), char(0)) == unfound.end());
+    CHECK(cutting.area() == doctest::Approx(area_of(many, 0, many.cell_count())));
 }
 
 TEST_CASE("strained cuts: a surface is flat when they lead to all of its vertices")

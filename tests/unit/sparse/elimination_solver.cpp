@@ -72,6 +72,15 @@ TEST_CASE("elimination: one solver takes systems with the same pattern and with 
     CHECK(solver(path({1, 1, 1})) == first);
 }
 
+TEST_CASE("elimination: ends when it is told to")
+{
+    taut::impl::elimination_solver solver;
+    solver.proceed = [] { return false; };
+    CHECK_THROWS_AS(solver(path({1, 1, 1})), taut::impl::elimination_solver::stopped);
+    solver.proceed = [] { return true; };
+    CHECK(solver(path({1, 1, 1}))[0].x == doctest::Approx(1.0 / 3));
+}
+
 TEST_CASE("elimination: no unknowns, no solution")
 {
     CHECK(taut::impl::elimination_solver{}(barycentric_system{}).empty());

@@ -246,10 +246,14 @@ private:
 /// Has segment() cut the charts, one flag each, that have no map, overlap themselves or are above the bound.
 inline void cut_rest(atlas_run& run, const atlas_surface& of, chart_set& set, const std::vector<char>& bad)
 {
-    auto seam = set.seam;
-    segment_rest(run, of, by_triangle(set.charts, bad), seam);
+    auto flat = laid(set);
+    const auto wanted = by_triangle(set.charts, bad);
+    segment_rest(run, of, wanted, flat.seam);
     if (!run.report.complete) return;
-    set = flattened(run, of, std::move(seam));
+    const surface_part part = part_of(of.surface, wanted, flat.seam);
+    const auto maps = run.flatten(part.charts);
+    for (std::size_t k = 0; k < maps.charts.size(); ++k) part.write(k, maps.charts[k].energy, maps.uv, flat);
+    set = cut(of, std::move(flat));
     if (run.report.complete) mend(run, of, set, unfit(set));
 }
 

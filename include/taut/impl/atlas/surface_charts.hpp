@@ -76,7 +76,8 @@ struct surface_charts
         return r.energy < infinite ? std::min(r.excess(), (params.max_distortion - 4) * r.area) : 0;
     }
 
-    /// Flattens some of the pieces of an antichain, and calls told(node, energy).
+    /// Flattens some of the pieces of an antichain, and calls told(node, energy), which is infinite where a piece
+    /// overlaps itself.
     template <class Told>
     void flatten_some(const mesh<triangle>& m, const facet_table& f, const cluster_tree& tree,
                       const std::vector<char>& antichain, const std::vector<char>& some, Told&& told)
@@ -86,7 +87,8 @@ struct surface_charts
         for (const idx n : label) wanted.push_back(n != cluster_tree::none);
         const surface_part part = part_of(m, wanted, tree.seams(f, tree.labels(antichain)));
         const auto [maps, shapes] = flatten(part);
-        for (std::size_t k = 0; k < shapes.size(); ++k) told(label[u(part.first_triangle(k))], maps.energy[k]);
+        for (std::size_t k = 0; k < shapes.size(); ++k)
+            told(label[u(part.first_triangle(k))], shapes[k].crosses ? infinite : maps.energy[k]);
     }
 
     /// Rebuilds the charts of these triangles from the seams, with their maps.

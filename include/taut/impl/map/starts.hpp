@@ -163,8 +163,19 @@ inline std::span<const start_maker> start_makers()
          [](const map_run& run, map_solver)
          {
              run_start start;
-             start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric(), elimination_solver(),
-                                         [&run] { return run.clock.proceed(); });
+             const auto proceed = [&run] { return run.clock.proceed(); };
+             elimination_solver solver;
+             solver.proceed = proceed;
+             try
+             {
+                 start.map =
+                     barycentric_map(run.in.surface, run.in.sides, run.params.barycentric(), std::move(solver), proceed);
+             }
+             catch (const elimination_solver::stopped&)
+             {
+                 start.stopped = true;
+                 return start;
+             }
              return fitted_start(run, std::move(start), false);
          }}};
     return all;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include <taut/impl/core/error.hpp>
@@ -27,9 +28,15 @@ public:
     /// The elimination order is kept for further systems with the same pattern.
     std::vector<vec2> operator()(const barycentric_system& system);
 
+    /// Thrown where `proceed` refuses.
+    struct stopped
+    {
+    };
+
+    std::function<bool()> proceed = {}; ///< asked now and then, if given: go on?
+
 private:
-    static std::vector<vec2> solve(const barycentric_system& system,
-                                   const std::vector<impl::elimination_front>& fronts);
+    std::vector<vec2> solve(const barycentric_system& system, const std::vector<impl::elimination_front>& fronts) const;
 
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
@@ -58,7 +65,7 @@ private:
                           std::vector<block>& pending, std::vector<idx>& place, const std::vector<char>& eliminated);
 
     /// Eliminates the pivots, a panel that fits the cache at a time, from every row below.
-    static void eliminate(block& dense, const std::vector<idx>& pivots);
+    void eliminate(block& dense, const std::vector<idx>& pivots) const;
 
     /// Replaces pivots [first, last) in row i by their means. Four at a time: one pass over the row for all of them.
     static void take_in(block& dense, std::size_t i, std::size_t first, std::size_t last);
@@ -66,6 +73,11 @@ private:
     static void split(block dense, std::size_t pivots, block& rows, block& pending);
 
     static void substitute(const impl::elimination_front& front, const block& rows, std::vector<vec2>& x);
+
+    void ask() const
+    {
+        if (proceed && !proceed()) throw stopped();
+    }
 
     std::vector<idx> offset_, column_; // the pattern that fronts_ belong to
     std::vector<impl::elimination_front> fronts_;

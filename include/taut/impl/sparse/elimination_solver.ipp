@@ -23,8 +23,9 @@ std::vector<vec2> elimination_solver::operator()(const barycentric_system& syste
 }
 
 std::vector<vec2> elimination_solver::solve(const barycentric_system& system,
-                                            const std::vector<impl::elimination_front>& fronts)
+                                            const std::vector<impl::elimination_front>& fronts) const
 {
+    constexpr std::size_t often = 512;         // fronts, most of which are small
     std::vector<block> pending(fronts.size()); // what a front leaves to its parent
     std::vector<block> rows(fronts.size());    // eliminated rows, kept for back substitution
     std::vector<idx> place(system.size(), -1);
@@ -33,6 +34,7 @@ std::vector<vec2> elimination_solver::solve(const barycentric_system& system,
 
     for (std::size_t f = 0; f < fronts.size(); ++f)
     {
+        if (f % often == 0) ask();
         block dense = assemble(system, transposed, fronts[f], fronts, pending, place, eliminated);
         eliminate(dense, fronts[f].pivots);
         split(std::move(dense), fronts[f].pivots.size(), rows[f], pending[f]);
@@ -97,12 +99,13 @@ elimination_solver::assemble(const barycentric_system& system, const std::vector
     return dense;
 }
 
-void elimination_solver::eliminate(block& dense, const std::vector<idx>& pivots)
+void elimination_solver::eliminate(block& dense, const std::vector<idx>& pivots) const
 {
     constexpr std::size_t panel = 32;
     const std::size_t n = dense.width;
     for (std::size_t first = 0; first < pivots.size(); first += panel)
     {
+        if (first > 0) ask();
         const std::size_t last = std::min(first + panel, pivots.size());
         for (std::size_t i = first; i < n; ++i)
         {

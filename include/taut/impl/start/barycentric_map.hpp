@@ -68,14 +68,31 @@ inline bool better(const start_map& a, const start_map& b, double factor = 1)
     return a.distortion.measure < factor * b.distortion.measure;
 }
 
+/// Solves the system of a round. False if the solver stopped, but for the first round, which has no map before it.
+template <class Solver>
+bool solve_round(Solver& solver, const barycentric_system& system, int round, std::vector<vec2>& x)
+{
+    try
+    {
+        x = solver(system);
+    }
+    catch (const elimination_solver::stopped&)
+    {
+        if (round == 0) throw;
+        return false;
+    }
+    return true;
+}
+
 /// Barycentric map of a surface that has passed validate() with `one_boundary` false: the longest boundary loop on a
 /// convex polygon, every other vertex at a positive mean of its neighbours. Injective in exact arithmetic (Tutte 1963,
 /// Floater 2003); in rounded arithmetic it is checked, and start_map::flips is what the check found.
 ///
 /// The polygon is centred at the origin, counter-clockwise, with the area of the surface. Further loops are holes: each
 /// is spanned by a cone whose apex is solved for as well, so that the theorem holds, and then dropped.
-/// f: facets(m). solver: a callable std::vector<vec2>(const barycentric_system&).
-/// Throws mesh_error (closed_surface, degenerate_cell), parameter_error, `error` (weights, solver).
+/// f: facets(m). solver: a callable std::vector<vec2>(const barycentric_system&). One that stops ends with the map of
+/// the round before; without one, elimination_solver::stopped passes through. Throws mesh_error (closed_surface,
+/// degenerate_cell), parameter_error, `error` (weights, solver).
 template <class Solver = elimination_solver>
 start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const barycentric_params& params,
                           Solver solver = {}, const std::function<bool()>& proceed = {})
@@ -118,7 +135,8 @@ start_map barycentric_map(const mesh<triangle>& m, const facet_table& f, const b
         if (round > 0 && proceed && !proceed()) break;
         if (round > 0) impl::weaken_stretched(pull, m, ideal, next.uv);
         const auto system = make_barycentric_system(points, cells, fixed, next.uv, params.weights, pull);
-        const std::vector<vec2> x = solver(system);
+        std::vector<vec2> x;
+        if (!impl::solve_round(solver, system, round, x)) break;
         for (std::size_t i = 0; i < x.size(); ++i) next.uv[static_cast<std::size_t>(system.unknown[i])] = x[i];
         next.residual = impl::mean_residual(system, x) / std::sqrt(area);
         next.assess(m, ideal);

@@ -339,6 +339,29 @@ inline coarse_surface make_coarse(const mesh<triangle>& m, const facet_table& f,
     return one.result();
 }
 
+/// Of the seams that open the handles of a connected surface, the length at least: one edge for each of the loops, two
+/// a handle.
+inline double least_loops(const mesh<triangle>& m, const facet_table& f)
+{
+    std::vector<double> edges;
+    std::ptrdiff_t border = 0;
+    for (std::size_t s = 0; s < f.twin.size(); ++s)
+    {
+        border += f.twin[s] < 0;
+        if (f.twin[s] >= static_cast<idx>(s)) continue;
+        const auto [a, b] = side_vertices(m, static_cast<idx>(s));
+        edges.push_back(
+            glm::distance(m.points()[static_cast<std::size_t>(a)], m.points()[static_cast<std::size_t>(b)]));
+    }
+    // By Euler, V - E + F = 2 - 2 handles - borders.
+    const auto borders = border > 0 ? boundary_loops(m, f).size() : 0;
+    const auto loops = 2 + static_cast<std::ptrdiff_t>(edges.size()) - m.vertex_count() - m.cell_count() -
+                       static_cast<std::ptrdiff_t>(borders);
+    const auto last = edges.begin() + std::clamp<std::ptrdiff_t>(loops, 0, std::ssize(edges));
+    if (last != edges.end()) std::nth_element(edges.begin(), last, edges.end());
+    return std::accumulate(edges.begin(), last, 0.0);
+}
+
 /// Spans small holes by cones, so that seams and maps are as if there were none. The apices come after all vertices
 /// and have no origin. Returns the number of the first triangle of a cone.
 inline idx span_small_holes(coarse_surface& s)

@@ -45,8 +45,9 @@ public:
         if (!together.empty()) polygon_ = polygons_of(f, together);
     }
 
-    /// wanted: one flag per triangle; size: triangles of a cell, at most. Cells in the order of the surface.
-    std::vector<disk_cell> run(std::span<const char> wanted, idx size) const
+    /// wanted: one flag per triangle; size: triangles of a cell, at most; worst: energy of cells that are not divided
+    /// again. Cells in the order of the surface.
+    std::vector<disk_cell> run(std::span<const char> wanted, idx size, double worst = 6) const
     {
         const surface_part part = part_of(mesh_, wanted, seam_);
         std::vector<piece> pieces; // of the size of cells, nearly, so that they are worked on in parallel
@@ -64,7 +65,7 @@ public:
             pieces.size(),
             [&](std::size_t begin, std::size_t end)
             {
-                for (std::size_t k = begin; k < end; ++k) add_cells(pieces[k], map_of(pieces[k]), size, made[k]);
+                for (std::size_t k = begin; k < end; ++k) add_cells(pieces[k], map_of(pieces[k]), size, worst, made[k]);
             },
             0, 1);
         std::vector<disk_cell> all;
@@ -140,10 +141,10 @@ private:
     }
 
     /// Adds the cells of a piece, whose map this is.
-    void add_cells(const piece& p, const piece_map& made, idx size, std::vector<disk_cell>& cells) const
+    void add_cells(const piece& p, const piece_map& made, idx size, double worst, std::vector<disk_cell>& cells) const
     {
         const auto n = static_cast<idx>(p.triangles.size());
-        if (made.energy < good || (made.energy < infinite && n <= (made.energy < bad ? few : fewest)))
+        if (made.energy < worst || (made.energy < infinite && n <= (made.energy < bad ? few : fewest)))
         {
             add_cell(p, made, cells);
             return;
@@ -164,7 +165,7 @@ private:
             add_cell(p, made, cells);
             return;
         }
-        for (std::size_t k = 0; k < smaller.size(); ++k) add_cells(smaller[k], maps[k], size, cells);
+        for (std::size_t k = 0; k < smaller.size(); ++k) add_cells(smaller[k], maps[k], size, worst, cells);
     }
 
     static void add_cell(const piece& p, const piece_map& made, std::vector<disk_cell>& cells)

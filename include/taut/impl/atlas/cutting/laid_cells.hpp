@@ -56,12 +56,13 @@ void lay_anew(const atlas_surface& of, laid_surface& laid, Label&& label, Energy
                  });
 }
 
-/// Takes steps with the maps of cells, for a tenth of the time so far, and parts those that lie on themselves then.
-/// wanted: one flag per triangle
-inline void relax_cells(const atlas_run& run, const atlas_surface& of, laid_surface& laid, std::span<const char> wanted)
+/// Takes steps with the maps of cells, in a run that has ended for a tenth of the time so far, and parts those that lie
+/// on themselves then. longest: seconds; wanted: one flag per triangle
+inline void relax_cells(const atlas_run& run, const atlas_surface& of, laid_surface& laid, std::span<const char> wanted,
+                        double longest)
 {
-    constexpr double part = 0.1, longest = 0.5; // seconds; complete atlases are the same on any machine
-    constexpr std::size_t many = 50'000;        // triangles, too many to part in that time
+    constexpr double part = 0.1;         // complete atlases are the same on any machine
+    constexpr std::size_t many = 50'000; // triangles, too many to part in that time
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const surface_part own = part_of(of.surface, wanted, laid.seam);
     const auto start = own.by_vertex(laid.uv);
@@ -111,11 +112,19 @@ inline void relax_cells(const atlas_run& run, const atlas_surface& of, laid_surf
 inline std::size_t lay_cells(const atlas_run& run, const atlas_surface& of, laid_surface& laid,
                              std::span<const char> wanted)
 {
-    constexpr std::ptrdiff_t size = 2048, count = 128; // triangles of a cell, cells, about
+    struct division
+    {
+        std::ptrdiff_t size, count; // triangles of a cell, cells, about
+        double worst, longest;      // energy, seconds
+    };
+    // Cells that are divided again take as long once more.
+    constexpr division usual{2048, 128, 6, 0.5}, at_once{512, 1024, std::numeric_limits<double>::infinity(), 0.1};
+    constexpr std::ptrdiff_t many = 100'000; // triangles, whose maps take long
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const auto all = std::count(wanted.begin(), wanted.end(), char(1));
+    const division& how = run.report.complete || all <= many ? usual : at_once;
     const auto made = cell_growing(of.surface, of.facets, of.params.charts.seams, of.params.charts.together)
-                          .run(wanted, static_cast<idx>(std::max(size, all / count)));
+                          .run(wanted, static_cast<idx>(std::max(how.size, all / how.count)), how.worst);
     std::vector<std::array<idx, 2>> place(wanted.size(), {-1, 0}); // cell, place in it
     for (std::size_t k = 0; k < made.size(); ++k)
         for (std::size_t i = 0; i < made[k].triangles.size(); ++i)
@@ -123,7 +132,7 @@ inline std::size_t lay_cells(const atlas_run& run, const atlas_surface& of, laid
     lay_anew(
         of, laid, [&](std::size_t c) { return place[c][0]; }, [&](idx cell) { return made[u(cell)].energy; },
         [&](std::size_t c, std::size_t k) { return made[u(place[c][0])].uv[u(place[c][1])][k]; });
-    relax_cells(run, of, laid, wanted);
+    relax_cells(run, of, laid, wanted, how.longest);
     return made.size();
 }
 

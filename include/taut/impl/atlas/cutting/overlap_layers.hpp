@@ -5,14 +5,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <iterator>
 #include <numeric>
 #include <span>
 #include <vector>
 
 #include <taut/impl/atlas/cutting/flat_surface.hpp>
+#include <taut/impl/core/counting_sort.hpp>
+#include <taut/impl/core/csr.hpp>
 #include <taut/impl/core/disjoint_sets.hpp>
+#include <taut/impl/core/parallel.hpp>
 
 namespace taut::impl
 {
@@ -58,14 +60,6 @@ inline bool beyond_a_side(const std::array<vec2, 3>& t, double i, double j)
     return false;
 }
 
-/// A square of a grid, and a triangle that comes into it.
-struct square_entry
-{
-    std::int64_t place;
-    idx cell;
-    bool operator<(const square_entry& o) const { return place != o.place ? place < o.place : cell < o.cell; }
-};
-
 /// A grid of squares of about the size of triangles, and which come into each.
 class triangle_grid
 {
@@ -74,19 +68,29 @@ public:
     {
         const idx cells = rest.first_span;
         const auto [low, high] = box_about(uv);
+        const vec2 extent = high - low;
+        constexpr double most = 16, longest = 2000; // squares a triangle, in a row
         low_ = low;
         size_ = std::max({1.5 * std::sqrt(rest.total / std::max<idx>(1, cells)),
-                          std::max(high.x - low.x, high.y - low.y) / 2000, 1e-300});
+                          std::sqrt(extent.x * extent.y / (most * (cells + 1))), std::max(extent.x, extent.y) / longest,
+                          1e-300});
+        columns_ = 1 + static_cast<idx>(extent.x / size_);
+        rows_ = 1 + static_cast<idx>(extent.y / size_);
+        std::vector<std::array<idx, 2>> entries; // square, triangle
         for (idx c = 0; c < cells; ++c)
             for_each_square(uv.subspan(3 * rest_surface::u(c)).first<3>(),
-                            [&](std::int64_t place) {
-                                entries_.push_back({place, c});
+                            [&](idx square) {
+                                entries.push_back({square, c});
                             });
-        std::sort(entries_.begin(), entries_.end());
+        inside_.items.resize(entries.size());
+        inside_.offsets = counting_sort(
+            entries.size(), rest_surface::u(columns_) * rest_surface::u(rows_),
+            [&](std::size_t i) { return entries[i][0]; },
+            [&](std::size_t i, std::size_t at) { inside_.items[at] = entries[i][1]; });
     }
 
-    /// By squares, ascending.
-    const std::vector<square_entry>& entries() const { return entries_; }
+    /// The triangles that come into each square, ascending.
+    const csr& inside() const { return inside_; }
 
     /// Calls f(triangle) for those that may lie on a triangle, some several times, until it returns true. Returns
     /// whether it did.
@@ -95,51 +99,66 @@ public:
     {
         bool found = false;
         for_each_square(triangle,
-                        [&](std::int64_t place)
+                        [&](idx square)
                         {
-                            auto e = std::lower_bound(entries_.begin(), entries_.end(), square_entry{place, 0});
-                            for (; e != entries_.end() && e->place == place && !found; ++e) found = f(e->cell);
+                            const auto own = inside_.row(square);
+                            found = found || std::any_of(own.begin(), own.end(), f);
                         });
         return found;
     }
 
 private:
+    /// Calls f(square) for those that a triangle, which may reach beyond the grid, comes into.
     template <class F>
     void for_each_square(std::span<const vec2, 3> uv, F&& f) const
     {
         const std::array<vec2, 3> t = {(uv[0] - low_) / size_, (uv[1] - low_) / size_, (uv[2] - low_) / size_};
-        const vec2 least = glm::min(glm::min(t[0], t[1]), t[2]), most = glm::max(glm::max(t[0], t[1]), t[2]);
-        for (auto i = static_cast<std::int64_t>(least.x); i <= static_cast<std::int64_t>(most.x); ++i)
-            for (auto j = static_cast<std::int64_t>(least.y); j <= static_cast<std::int64_t>(most.y); ++j)
-                if (!beyond_a_side(t, static_cast<double>(i), static_cast<double>(j))) f(i * 4096 + j);
+        const vec2 least = glm::max(glm::min(glm::min(t[0], t[1]), t[2]), vec2(0.0));
+        const vec2 most = glm::min(glm::max(glm::max(t[0], t[1]), t[2]), vec2(columns_ - 1, rows_ - 1));
+        for (double i = std::floor(least.x); i <= most.x; ++i)
+            for (double j = std::floor(least.y); j <= most.y; ++j)
+                if (!beyond_a_side(t, i, j)) f(static_cast<idx>(i) * rows_ + static_cast<idx>(j));
     }
 
     vec2 low_{0.0};
     double size_ = 1;
-    std::vector<square_entry> entries_;
+    idx columns_ = 1, rows_ = 1;
+    csr inside_; // of each square, columns one after the other
 };
+
+/// Two triangles of a chart, the lower number first.
+using triangle_pair = std::array<idx, 2>;
 
 /// Pairs of triangles of the same chart that lie on each other, ascending; found by a grid.
 /// chart: one label a triangle
-inline std::vector<std::array<idx, 2>> overlapping_pairs(const rest_surface& rest, std::span<const vec2> uv,
-                                                         std::span<const idx> chart)
+inline std::vector<triangle_pair> overlapping_pairs(const rest_surface& rest, std::span<const vec2> uv,
+                                                    std::span<const idx> chart)
 {
     const auto u = rest_surface::u;
     const triangle_grid grid(rest, uv);
-    const auto& entries = grid.entries();
-    std::vector<std::array<idx, 2>> pairs;
-    for (std::size_t first = 0, end = 0; first < entries.size(); first = end)
+    constexpr idx block = 4096; // squares
+    std::vector<std::vector<triangle_pair>> found(u((grid.inside().rows() + block - 1) / block));
+    const auto look_into = [&](idx square, std::vector<triangle_pair>& pairs)
     {
-        for (end = first; end < entries.size() && entries[end].place == entries[first].place;) ++end;
-        for (std::size_t i = first; i < end; ++i)
-            for (std::size_t j = i + 1; j < end; ++j)
-            {
-                const idx a = entries[i].cell, b = entries[j].cell;
-                if (chart[u(a)] != chart[u(b)]) continue;
-                if (lie_on_each_other(uv.subspan(3 * u(a)).first<3>(), uv.subspan(3 * u(b)).first<3>()))
-                    pairs.push_back({a, b});
-            }
-    }
+        const auto own = grid.inside().row(square);
+        for (std::size_t i = 0; i < own.size(); ++i)
+            for (std::size_t j = i + 1; j < own.size(); ++j)
+                if (chart[u(own[i])] == chart[u(own[j])] &&
+                    lie_on_each_other(uv.subspan(3 * u(own[i])).first<3>(), uv.subspan(3 * u(own[j])).first<3>()))
+                    pairs.push_back({own[i], own[j]});
+    };
+    parallel_for(
+        found.size(),
+        [&](std::size_t begin, std::size_t end)
+        {
+            for (std::size_t b = begin; b < end; ++b)
+                for (idx square = block * static_cast<idx>(b);
+                     square < std::min(block * static_cast<idx>(b + 1), grid.inside().rows()); ++square)
+                    look_into(square, found[b]);
+        },
+        0, 2);
+    std::vector<triangle_pair> pairs;
+    for (const auto& some : found) pairs.insert(pairs.end(), some.begin(), some.end());
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
@@ -169,12 +188,12 @@ inline void separate(const rest_surface& rest, overlap_layers& layers)
 
 /// The layers of each overlap: pairs (a, b) and (a', b') belong together where a' is a neighbour of a in the chart, or
 /// b' one of b. Largest first.
-inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const flat_surface& flat)
+/// half: overlapping_pairs() of the charts
+inline std::vector<overlap_layers> layers_of(const rest_surface& rest, const flat_surface& flat,
+                                             std::span<const triangle_pair> half)
 {
     const auto u = rest_surface::u;
-    const auto chart = pieces_between(rest.facets, flat.seam).first;
-    const auto half = overlapping_pairs(rest, flat.uv, chart);
-    std::vector<std::array<idx, 2>> pairs;
+    std::vector<triangle_pair> pairs;
     for (const auto& [a, b] : half)
     {
         pairs.push_back({a, b});
@@ -222,6 +241,12 @@ inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const
     std::stable_sort(result.begin(), result.end(),
                      [](const overlap_layers& a, const overlap_layers& b) { return a.area > b.area; });
     return result;
+}
+
+inline std::vector<overlap_layers> find_overlaps(const rest_surface& rest, const flat_surface& flat)
+{
+    const auto chart = pieces_between(rest.facets, flat.seam).first;
+    return layers_of(rest, flat, overlapping_pairs(rest, flat.uv, chart));
 }
 
 } // namespace taut::impl

@@ -75,11 +75,16 @@ inline int cut_layers(const rest_surface& rest, flat_surface& flat)
 {
     constexpr int rounds = 8, most = 400; // cuts
     minimum_cutting between(rest);
+    auto chart = pieces_between(rest.facets, flat.seam).first;
+    auto pairs = overlapping_pairs(rest, flat.uv, chart);
     int made = 0;
     for (int round = 0, before = -1; round < rounds && made < most && made != before; ++round)
     {
         before = made;
-        for (const overlap_layers& one : find_overlaps(rest, flat))
+        if (round > 0) chart = pieces_between(rest.facets, flat.seam).first;
+        std::erase_if(pairs, [&](const triangle_pair& p)
+                      { return chart[rest_surface::u(p[0])] != chart[rest_surface::u(p[1])]; });
+        for (const overlap_layers& one : layers_of(rest, flat, pairs))
         {
             if (one.below.empty() || one.above.empty()) continue;
             const auto cut = between.run(flat.seam, one.below, one.above); // empty: parted by another one

@@ -36,6 +36,10 @@ struct search_setting
 class seam_search
 {
 public:
+    /// Loops around handles are never sewn up: where they are longer, by the root of the area, charts that go around
+    /// none are better.
+    static constexpr double most_loops = 12;
+
     seam_search(const rest_surface& rest, const search_setting& setting) : rest_(rest), setting_(setting) {}
 
     /// False if there is no map to begin with.
@@ -113,8 +117,6 @@ private:
         constexpr int rounds = 3;
         for (int round = 0; round < rounds; ++round)
             straighten(rest_.surface, rest_.facets, flat_.seam, {}, {}, unlimited, rest_.price);
-        // Loops around handles are never sewn up: where there are many, charts that go around none are better.
-        constexpr double most_loops = 12; // length by the root of the area
         const double root = std::sqrt(rest_.total);
         if (seam_length(rest_, flat_.seam) > most_loops * root) return false;
         // Strips of a smooth surface that are half as wide have a sixteenth of the excess.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <numeric>
@@ -138,7 +139,7 @@ public:
     {
         double sum = 0;
         for (const auto& p : searches_)
-            if (p && p->rest) sum += p->rest->total;
+            if (p) sum += p->area;
         return sum;
     }
 
@@ -199,7 +200,7 @@ private:
         bool coarser = false, noisy = false; // noisy: in small patches already, which coarser ones do not show
         std::optional<rest_surface> rest;
         std::unique_ptr<seam_search> search;
-        double bound = 4, price = 0;
+        double bound = 4, price = 0, area = 0;
 
         bool rough() const { return noisy || search->rough(); }
     };
@@ -244,6 +245,8 @@ private:
         piece_search& p = *searches_[k];
         p.surface = chart_alone(pieces_.charts, k);
         p.facets = facets(*p.surface);
+        p.area = area_of(*p.surface, 0, p.surface->cell_count());
+        if (least_loops(*p.surface, p.facets) > seam_search::most_loops * std::sqrt(p.area)) return;
         coarse_surface coarse =
             make_coarse(*p.surface, p.facets,
                         p.surface->cell_count() > params_.coarse * 7 / 5 ? params_.coarse : p.surface->cell_count(),
@@ -258,6 +261,7 @@ private:
         p.origins = std::move(coarse.origins);
         const idx first_span = span_small_holes(coarse);
         p.rest = rest_surface::of(mesh<triangle>(std::move(coarse.points), std::move(coarse.cells)), first_span);
+        p.area = p.rest->total;
         if (factors_.empty() && (p.coarser || together_.empty())) return;
         const auto price = fine_prices(k);
         if (p.coarser)
