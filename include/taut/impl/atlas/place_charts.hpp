@@ -13,6 +13,7 @@
 #include <taut/impl/atlas/cutting/mend_charts.hpp>
 #include <taut/impl/atlas/filled_square.hpp>
 #include <taut/impl/atlas/make_charts.hpp>
+#include <taut/impl/atlas/pressed_charts.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
@@ -94,24 +95,24 @@ inline void make_convex(const atlas_run& run, const atlas_surface& of, chart_set
     }
 }
 
-/// Cuts charts where the square is used much better then for the length of the cuts (filled_square.hpp).
+/// Bends charts, and cuts them where the square is used much better then for the length of the cuts
+/// (pressed_charts.hpp, filled_square.hpp).
 inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
 {
     constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
     constexpr idx few = 16;                               // charts
-    const auto& params = of.params;
-    const auto& packing = params.packing;
-    if (params.prefer != chart_preference::seams || params.keep_charts || params.symmetric || params.stack ||
-        !packing.walls.empty() || packing.on_grid() || packing.tiles > 1)
-        return;
+    if (!fills_squares(of.params)) return;
     if (!run.report.reason.empty() || !run.report.complete || set.charts.charts() > few) return;
     double area = 0;
     for (const double a : ideal_elements<triangle>(of.surface).measure) area += a;
     const double longest = least_length * std::sqrt(area) + by_seams * length_of_seams(of.surface, of.facets, set.seam);
-    auto flat = laid(set);
-    auto quietly = packing;
+    auto quietly = of.params.packing;
     const run_limits left = run.limits("pack");
     quietly.limits = {left.time_limit, {}};
+    const auto press = [&]
+    { chart_press(run, set, quietly, bound_of_search(of)).run(of.params.charts.max_distortion); };
+    press();
+    auto flat = laid(set);
     const auto prices = of.prices();
     flat.seam = filled_square(of.surface, of.facets, flat.uv, prices, quietly)
                     .run(set.seam, longest, [&left] { return left.observer({}); });
@@ -119,6 +120,7 @@ inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
     {
         set = cut(of, std::move(flat));
         measure(set);
+        press();
     }
     run.report.seconds.pack += run.clock.lap();
 }
