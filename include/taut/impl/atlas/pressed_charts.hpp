@@ -156,7 +156,7 @@ private:
     bool move(idx chart, std::span<const vec2> to, double side)
     {
         constexpr int halvings = 4;
-        constexpr double least_gain = 0.004; // of the use
+        constexpr double least_gain = 0.01; // of the use
         const auto from = points(chart);
         auto best = from;
         const auto x = own(chart);

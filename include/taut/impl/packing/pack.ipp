@@ -69,8 +69,9 @@ public:
         }
         trial_ = effort_ != packing_effort::full;
         search(std::max(side, longest), !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
-        if (params_.rotate && !trial_ && (pieces_.size() <= few || longest > 0.8 * side))
-            search(std::max(side, longest / std::numbers::sqrt2), 16);
+        const double wider = std::max(side, longest / std::numbers::sqrt2);
+        if (params_.rotate && !trial_ && (pieces_.size() <= few || longest > 0.8 * side)) search(wider, 16);
+        if (params_.rotate && !trial_ && pieces_.size() <= few / 2) search(wider, 64);
         packed_.complete = !limits_.over();
         return std::move(packed_);
     }
