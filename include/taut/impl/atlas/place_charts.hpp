@@ -17,7 +17,6 @@
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
-#include <taut/impl/packing/outlines.hpp>
 #include <taut/impl/untangle/convex_corners.hpp>
 
 namespace taut::impl
