@@ -110,16 +110,27 @@ inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
     quietly.limits = {left.time_limit, {}};
     const auto press = [&]
     { chart_press(run, set, quietly, bound_of_search(of)).run(of.params.charts.max_distortion); };
-    press();
-    auto flat = laid(set);
     const auto prices = of.prices();
-    flat.seam = filled_square(of.surface, of.facets, flat.uv, prices, quietly)
-                    .run(set.seam, longest, [&left] { return left.observer({}); });
-    if (flat.seam != set.seam)
+    // Whether there are cuts that gain; if_enough: they are made only if the square is used enough then
+    const auto cut_further = [&](bool if_enough)
     {
+        auto flat = laid(set);
+        filled_square filling(of.surface, of.facets, flat.uv, prices, quietly);
+        auto seam = filling.run(set.seam, longest, [&left] { return left.observer({}); });
+        const bool some = seam != set.seam;
+        if (!some || (if_enough && filling.use_of(seam, packing_effort::full) < filled_square::enough)) return some;
+        flat.seam = std::move(seam);
         set = cut(of, std::move(flat));
         measure(set);
+        return true;
+    };
+    // Charts that are bent gain less by cuts: where these alone are enough, they come first.
+    const auto before = set.charts.charts();
+    const bool cuts = cut_further(true);
+    if (set.charts.charts() == before)
+    {
         press();
+        if (cuts && cut_further(false)) press();
     }
     run.report.seconds.pack += run.clock.lap();
 }
