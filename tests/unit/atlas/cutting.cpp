@@ -197,8 +197,8 @@ TEST_CASE("needles around one vertex: they come into few squares of a grid, and 
 
 TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
 {
-    // A helix of 1.5 turns, seen from above.
-    constexpr int around = 60, across = 4;
+    // A helix of 1.5 turns, seen from above. No vertex lies on another.
+    constexpr int around = 61, across = 4;
     std::vector<vec3> points;
     std::vector<std::array<idx, 3>> cells;
     for (int i = 0; i <= around; ++i)
@@ -246,6 +246,41 @@ TEST_CASE("overlaps: a strip that lies on itself is parted by a cut across it")
     CHECK(pieces_between(rest.facets, flat.seam).second == 2);
     CHECK(border_crossings(rest, flat, 1) == 0);
     check_no_flips(rest, flat);
+}
+
+TEST_CASE("parting: a chart whose ends lie on each other by less than triangles are told apart")
+{
+    // A strip around a hole, laid so that its end is beyond its beginning by a hair.
+    constexpr idx around = 40;
+    std::vector<vec3> points;
+    std::vector<std::array<idx, 3>> cells;
+    for (idx i = 0; i <= around; ++i)
+        for (const double r : {2.0, 2.5})
+        {
+            const double a = 2 * std::numbers::pi * i / around + (i == around ? 1e-9 : 0);
+            points.emplace_back(r * std::cos(a), r * std::sin(a), 0);
+        }
+    for (idx i = 0; i < 2 * around; i += 2)
+    {
+        cells.push_back({i, i + 1, i + 3});
+        cells.push_back({i, i + 3, i + 2});
+    }
+    const rest_surface rest = rest_of(mesh<triangle>(points, cells));
+    std::vector<vec2> uv;
+    for (const auto& t : cells)
+        for (const idx v : t) uv.emplace_back(points[at(v)]);
+    std::vector<char> seam(rest.facets.twin.size(), 0);
+    std::vector<idx> all(cells.size());
+    std::iota(all.begin(), all.end(), idx(0));
+    flat_surface flat{.seam = seam, .uv = uv, .fan = {}, .fan_cells = {}};
+    number_fans(rest, flat);
+    REQUIRE(find_overlaps(rest, flat).empty());
+    REQUIRE(border_crossings(rest, flat, 1) == 1);
+    CHECK(part_laid(rest.surface, {seam, uv, all}, {rest.price, {}}));
+    flat.seam = seam;
+    number_fans(rest, flat);
+    CHECK(border_crossings(rest, flat, 1) == 0);
+    CHECK(pieces_between(rest.facets, seam).second == 2);
 }
 
 TEST_CASE("coarse surface: ends when it is told to")

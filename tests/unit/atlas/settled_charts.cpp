@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <taut/impl/atlas/atlas_summary.hpp>
-#include <taut/impl/atlas/round_polygon.hpp>
+#include <taut/impl/atlas/chart_start.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/core/single.hpp>
 #include <taut/impl/io/obj.hpp>

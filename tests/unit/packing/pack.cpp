@@ -370,3 +370,30 @@ TEST_CASE("pack: charts keep away from walls, and fill what these leave")
     add_wall(params, walls, 0, {0, 0}, {1, 1});
     CHECK_THROWS_AS(packed(squares(5), params, none), taut::packing_error);
 }
+
+TEST_CASE("pack: two arcs are nested at directions that are no sixteenth of a circle")
+{
+    std::vector<vec2> uv;
+    std::vector<std::array<taut::idx, 3>> cells;
+    std::vector<taut::idx> first_cell{0}, first_vertex{0};
+    constexpr taut::idx along = 60;
+    for (const double angle : {1.6, 1.7})
+    {
+        const auto base = static_cast<taut::idx>(uv.size());
+        for (taut::idx i = 0; i <= along; ++i)
+            for (const double r : {2, 3})
+            {
+                const double a = angle * i / along;
+                uv.emplace_back(r * std::cos(a), r * std::sin(a));
+            }
+        for (taut::idx i = base; i < base + 2 * along; i += 2)
+        {
+            cells.push_back({i, i + 1, i + 3});
+            cells.push_back({i, i + 3, i + 2});
+        }
+        first_cell.push_back(static_cast<taut::idx>(cells.size()));
+        first_vertex.push_back(static_cast<taut::idx>(uv.size()));
+    }
+    const auto packed = taut::pack(uv, cells, first_cell, first_vertex);
+    CHECK(packed.utilization > 0.55); // 0.52 in sixteen directions
+}

@@ -28,6 +28,8 @@ namespace taut::impl
 class filled_square
 {
 public:
+    static constexpr double enough = 0.6; ///< use of the square
+
     /// uv: one per corner of the surface; price: what a seam counts, one a side. All are referred to, but for
     /// `packing` and `limits`, those of each layout.
     filled_square(const mesh<triangle>& m, const facet_table& f, std::span<const vec2> uv,
@@ -46,8 +48,8 @@ public:
     /// seam: one flag a side; longest: what all cuts together may count. Returns the seams with those of the cuts.
     std::vector<char> run(std::vector<char> seam, double longest, const std::function<bool()>& proceed)
     {
-        constexpr double enough = 0.6, worth = 0.1; // use of the square; its gain by cost by the root of the area
-        constexpr int most = 8;                     // cuts
+        constexpr double worth = 0.1; // gain of the use by cost by the root of the area
+        constexpr int most = 8;       // cuts
         const double least = worth / std::sqrt(area_);
         std::vector<char> best = seam;
         std::vector<idx> all(mesh_.cells().size());

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/atlas/round_polygon.hpp>
+#include <taut/impl/atlas/chart_start.hpp>
 #include <taut/impl/atlas/short_charts.hpp>
 #include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/atlas/symmetry/symmetric_half.hpp>

@@ -13,10 +13,10 @@
 #include <taut/impl/atlas/cutting/mend_charts.hpp>
 #include <taut/impl/atlas/filled_square.hpp>
 #include <taut/impl/atlas/make_charts.hpp>
+#include <taut/impl/atlas/pressed_charts.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
-#include <taut/impl/packing/outlines.hpp>
 #include <taut/impl/untangle/convex_corners.hpp>
 
 namespace taut::impl
@@ -94,31 +94,42 @@ inline void make_convex(const atlas_run& run, const atlas_surface& of, chart_set
     }
 }
 
-/// Cuts charts where the square is used much better then for the length of the cuts (filled_square.hpp).
+/// Bends charts, and cuts them where the square is used much better then for the length of the cuts
+/// (pressed_charts.hpp, filled_square.hpp).
 inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
 {
     constexpr double least_length = 0.1, by_seams = 0.08; // that may be cut in all, by the root of the area
     constexpr idx few = 16;                               // charts
-    const auto& params = of.params;
-    auto packing = params.packing;
-    packing.groups.clear();
-    packing.densities.clear();
-    if (params.prefer != chart_preference::seams || params.symmetric || params.stack || !packing.walls.empty() ||
-        packing.on_grid() || packing.tiles > 1)
-        return;
+    if (!fills_squares(of.params)) return;
     if (!run.report.reason.empty() || !run.report.complete || set.charts.charts() > few) return;
     double area = 0;
     for (const double a : ideal_elements<triangle>(of.surface).measure) area += a;
     const double longest = least_length * std::sqrt(area) + by_seams * length_of_seams(of.surface, of.facets, set.seam);
-    auto flat = laid(set);
+    const pack_params packing = packing_of_square(of.params);
     const run_limits left = run.limits("pack");
+    const auto press = [&]
+    { chart_press(run, set, packing, bound_of_search(of)).run(of.params.charts.max_distortion); };
     const auto prices = of.prices();
-    flat.seam = filled_square(of.surface, of.facets, flat.uv, prices, packing, {left.time_limit, {}})
-                    .run(set.seam, longest, [&left] { return left.observer({}); });
-    if (flat.seam != set.seam)
+    // Whether there are cuts that gain; if_enough: they are made only if the square is used enough then
+    const auto cut_further = [&](bool if_enough)
     {
+        auto flat = laid(set);
+        filled_square filling(of.surface, of.facets, flat.uv, prices, packing, {left.time_limit, {}});
+        auto seam = filling.run(set.seam, longest, [&left] { return left.observer({}); });
+        const bool some = seam != set.seam;
+        if (!some || (if_enough && filling.use_of(seam, packing_effort::full) < filled_square::enough)) return some;
+        flat.seam = std::move(seam);
         set = cut(of, std::move(flat));
         measure(set);
+        return true;
+    };
+    // Charts that are bent gain less by cuts: where these alone are enough, they come first.
+    const auto before = set.charts.charts();
+    const bool cuts = cut_further(true);
+    if (set.charts.charts() == before)
+    {
+        press();
+        if (cuts && cut_further(false)) press();
     }
     run.report.seconds.pack += run.clock.lap();
 }

@@ -15,6 +15,7 @@
 #include <taut/impl/atlas/cutting/mend_charts.hpp>
 #include <taut/impl/atlas/cutting/sew_tips.hpp>
 #include <taut/impl/atlas/cutting/short_cutting.hpp>
+#include <taut/impl/atlas/pressed_charts.hpp>
 #include <taut/impl/atlas/seams/straighten.hpp>
 #include <taut/impl/atlas/segment.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
@@ -120,9 +121,34 @@ inline void segment_rest(atlas_run& run, const atlas_surface& of, std::span<cons
         if (made.laid.seam[s]) seam[part.origin(s)] = 1;
 }
 
-/// Sews up some charts, one flag each, until the bound of all is reached. whole: their maps may follow as a whole,
-/// which does not keep borders apart
-inline void sew_up(const atlas_surface& of, chart_set& set, const std::vector<char>& wanted, bool whole, budget& limits)
+/// The bound of the mean energy that a search keeps: less what rounding and scale take, and this part of what is
+/// allowed.
+inline double bound_of_search(const atlas_surface& of, double less = 0)
+{
+    return 4 + (0.998 - less) * (of.params.charts.mean_distortion - 4);
+}
+
+/// Whether charts are bent and cut so that they fill squares.
+inline bool fills_squares(const atlas_params& params)
+{
+    const auto& packing = params.packing;
+    return params.prefer == chart_preference::seams && !params.symmetric && !params.stack && packing.walls.empty() &&
+           !packing.on_grid() && packing.tiles == 1;
+}
+
+/// The packing of charts that are tried: what is given by triangle is left out.
+inline pack_params packing_of_square(const atlas_params& params)
+{
+    pack_params packing = params.packing;
+    packing.groups.clear();
+    packing.densities.clear();
+    return packing;
+}
+
+/// Sews up some charts, one flag each, until the bound of the mean of all is reached. whole: their maps may follow as a
+/// whole, which does not keep borders apart
+inline void sew_up(const atlas_surface& of, chart_set& set, const std::vector<char>& wanted, bool whole, double mean,
+                   budget& limits)
 {
     const auto flags = by_triangle(set.charts, wanted);
     double others = 0, own = 0; // energy, area
@@ -137,7 +163,7 @@ inline void sew_up(const atlas_surface& of, chart_set& set, const std::vector<ch
     if (some.empty()) return;
     double all = own;
     for (std::size_t k = 0; k < wanted.size(); ++k) all += wanted[k] ? 0 : chart_area(set.charts, k);
-    const double bound = ((0.002 * 4 + 0.998 * of.params.charts.mean_distortion) * all - others) / own;
+    const double bound = (mean * all - others) / own;
     auto flat = laid(set);
     if (!sew_laid(
             of.surface, {flat.seam, flat.uv, some, whole}, of.params.charts.seams, bound,
@@ -233,7 +259,7 @@ private:
     short_cutting& cutting_;
     std::span<const char> rest_;
     budget& limits_;
-    double allowed_ = 0.998 * (of_.params.charts.mean_distortion - 4), bound_ = 4 + allowed_; // rounding, scale
+    double bound_ = bound_of_search(of_), allowed_ = bound_ - 4;
     // One more map costs more than what it may save.
     bool large_ = of_.surface.cells().size() > 30'000 || cutting_.pieces() > 64;
     double rate_ = 0.4; // mean energy that it costs to keep borders apart, about, by the part that overlaps
@@ -271,9 +297,14 @@ inline chart_set finished(atlas_run& run, const atlas_surface& of, const short_s
     atlas_report& report = run.report;
     if (report.complete && best.holds && few)
     {
-        sew_up(of, set, best.plain, true, limits);
+        // What charts that are to be bent need of it, so that the square is used more.
+        constexpr double bending = 0.04;
+        const bool presses =
+            fills_squares(of.params) && chart_press(run, set, packing_of_square(of.params), 0).leader() >= 0;
+        const double bound = bound_of_search(of, presses ? bending : 0);
+        sew_up(of, set, best.plain, true, bound, limits);
         if (std::count(best.plain.begin(), best.plain.end(), char(0)) > 0 && report.complete)
-            sew_up(of, set, std::vector<char>(set.energy.size(), 1), false, limits);
+            sew_up(of, set, std::vector<char>(set.energy.size(), 1), false, bound, limits);
     }
     if (!report.complete) return unfinished(run, of, set);
     const bool part = search.lies_on_itself();

@@ -69,8 +69,9 @@ public:
         }
         trial_ = effort_ != packing_effort::full;
         search(std::max(side, longest), !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4);
-        if (params_.rotate && !trial_ && (pieces_.size() <= few || longest > 0.8 * side))
-            search(std::max(side, longest / std::numbers::sqrt2), 16);
+        const double wider = std::max(side, longest / std::numbers::sqrt2);
+        if (params_.rotate && !trial_ && (pieces_.size() <= few || longest > 0.8 * side)) search(wider, 16);
+        if (params_.rotate && !trial_ && pieces_.size() <= few / 2) search(wider, 64);
         packed_.complete = !limits_.over();
         return std::move(packed_);
     }
@@ -224,7 +225,7 @@ private:
             side = std::max({idx{8}, narrowest, static_cast<idx>(std::lround(side * std::sqrt(filled)))});
         }
         if (!best.complete) return;
-        if (effort_ != packing_effort::draft) reorder(best, least, narrowest);
+        if (effort_ != packing_effort::draft) reorder(best, least, narrowest, trial_ || turns > 16 ? 4 : 1);
         keep(best, least);
     }
 
@@ -241,18 +242,33 @@ private:
         return least;
     }
 
-    /// Tries other orders near the best one, none twice, in a number of constant total time; of few pieces other poses
-    /// of single ones, too, since the pose that lies lowest need not leave the best room to the others.
-    void reorder(tile_layout& best, double& least, idx narrowest)
+    /// The side, in cells, that each piece needs by itself: no layout is in a smaller tile.
+    double square_of_largest() const
+    {
+        double most = 0;
+        for (const auto& poses : poses_)
+        {
+            double own = std::numeric_limits<double>::infinity();
+            for (const pose& p : poses) own = std::min(own, std::max(p.size.x, p.size.y));
+            most = std::max(most, own);
+        }
+        return most;
+    }
+
+    /// Tries other orders near the best one, none twice, in a number of constant total time, or a part of it; of few
+    /// pieces other poses of single ones, too, since the pose that lies lowest need not leave the best room to the
+    /// others.
+    void reorder(tile_layout& best, double& least, idx narrowest, std::size_t part)
     {
         constexpr std::size_t few = 16;
-        const std::size_t n = pieces_.size(), part = trial_ ? 4 : 1,
-                          tries = std::min<std::size_t>(100, 3000 / n) / part, more = n <= few ? 120 / part : 0;
+        const std::size_t n = pieces_.size(), tries = std::min<std::size_t>(100, 3000 / n) / part,
+                          more = n <= few ? 120 / part : 0;
         std::minstd_rand lot(1);
         double last = least;
         std::vector<idx> only(n, -1);                                        // pose of each piece, -1: any
         std::set<std::tuple<idx, std::vector<idx>, std::vector<idx>>> tried; // by side
-        for (std::size_t k = 0; n > 1 && k < tries + more && !limits_.over(); ++k)
+        const double bound = 1.002 * square_of_largest();
+        for (std::size_t k = 0; n > 1 && k < tries + more && least > bound && !limits_.over(); ++k)
         {
             auto order = order_;
             auto posed = only;

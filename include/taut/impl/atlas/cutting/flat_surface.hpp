@@ -147,8 +147,10 @@ inline int relax(const rest_surface& rest, flat_surface& flat, int steps, double
     return made;
 }
 
-/// Pairs of border edges of the same chart whose images meet, counted up to `most`; exact.
-inline std::size_t border_crossings(const rest_surface& rest, const flat_surface& flat, std::size_t most)
+/// Calls f(side, side) for the pairs of border edges of the same chart whose images meet, until it returns false;
+/// exact.
+template <class F>
+void for_each_border_crossing(const rest_surface& rest, const flat_surface& flat, F&& f)
 {
     const auto u = rest_surface::u;
     std::vector<vec2> place(flat.fan_cells.size(), vec2(0.0));
@@ -160,17 +162,29 @@ inline std::size_t border_crossings(const rest_surface& rest, const flat_surface
     }
     const auto [chart, charts] = pieces_between(rest.facets, flat.seam);
     std::vector<std::array<idx, 2>> edges(border.size());
+    std::vector<idx> sides(border.size());
     const auto first = counting_sort(
         border.size(), u(charts), [&, &chart = chart](std::size_t i) { return chart[u(border[i] / 3)]; },
         [&](std::size_t i, std::size_t at)
         {
+            sides[at] = border[i];
             edges[at] = {flat.fan[u(rest_surface::start_corner(border[i]))],
                          flat.fan[u(rest_surface::end_corner(border[i]))]};
         });
-    std::size_t count = 0;
-    for (std::size_t k = 0; k + 1 < first.size() && count < most; ++k)
+    bool more = true;
+    for (std::size_t k = 0; k + 1 < first.size() && more; ++k)
+    {
+        const idx* const own = sides.data() + first[k];
         for_each_meeting(std::span(edges).subspan(u(first[k]), u(first[k + 1] - first[k])), place,
-                         [&](std::size_t, std::size_t) { return ++count < most; });
+                         [&](std::size_t i, std::size_t j) { return more = f(own[i], own[j]); });
+    }
+}
+
+/// The number of these pairs, counted up to `most`.
+inline std::size_t border_crossings(const rest_surface& rest, const flat_surface& flat, std::size_t most)
+{
+    std::size_t count = 0;
+    for_each_border_crossing(rest, flat, [&](idx, idx) { return ++count < most; });
     return count;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -69,8 +71,9 @@ inline int part_charts(const rest_surface& rest, flat_surface& flat, const parti
     return made;
 }
 
-/// Parts charts where they lie on themselves by the shortest cuts between the layers, largest first. The maps stay, so
-/// that it ends after few cuts a layer, whatever the surface. Returns the number of cuts.
+/// Parts charts where they lie on themselves by the shortest cuts between the layers, largest first, and then between
+/// triangles whose borders still meet, as layers that are thinner than rounding are not told. The maps stay, so that it
+/// ends after few cuts a layer, whatever the surface. Returns the number of cuts.
 inline int cut_layers(const rest_surface& rest, flat_surface& flat)
 {
     constexpr int rounds = 8, most = 400; // cuts
@@ -78,20 +81,31 @@ inline int cut_layers(const rest_surface& rest, flat_surface& flat)
     auto chart = pieces_between(rest.facets, flat.seam).first;
     auto pairs = overlapping_pairs(rest, flat.uv, chart);
     int made = 0;
+    const auto part = [&](std::span<const idx> below, std::span<const idx> above)
+    {
+        if (below.empty() || above.empty() || made == most) return;
+        const auto cut = between.run(flat.seam, below, above); // empty: parted by another one
+        for (const idx s : cut) set_seam(rest, flat.seam, s, 1);
+        made += !cut.empty();
+    };
     for (int round = 0, before = -1; round < rounds && made < most && made != before; ++round)
     {
         before = made;
         if (round > 0) chart = pieces_between(rest.facets, flat.seam).first;
         std::erase_if(pairs, [&](const triangle_pair& p)
                       { return chart[rest_surface::u(p[0])] != chart[rest_surface::u(p[1])]; });
-        for (const overlap_layers& one : layers_of(rest, flat, pairs))
-        {
-            if (one.below.empty() || one.above.empty()) continue;
-            const auto cut = between.run(flat.seam, one.below, one.above); // empty: parted by another one
-            for (const idx s : cut) set_seam(rest, flat.seam, s, 1);
-            made += !cut.empty();
-            if (made == most) break;
-        }
+        for (const overlap_layers& one : layers_of(rest, flat, pairs)) part(one.below, one.above);
+        if (made != before) continue;
+        number_fans(rest, flat);
+        std::vector<std::array<idx, 2>> meeting; // triangles
+        for_each_border_crossing(rest, flat,
+                                 [&](idx s, idx t)
+                                 {
+                                     meeting.push_back({s / 3, t / 3});
+                                     return std::ssize(meeting) < most;
+                                 });
+        for (const auto& [a, b] : meeting)
+            if (a != b) part({&a, 1}, {&b, 1});
     }
     return made;
 }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Charts are bent into smaller squares within a bound of distortion.
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <doctest/doctest.h>
+
+#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/impl/atlas/pressed_charts.hpp>
+#include <taut/impl/atlas/settled_charts.hpp>
+
+using namespace taut;
+using namespace taut::impl;
+
+namespace
+{
+
+/// A flat arc of this angle, as one chart, with triangles of about 0.25.
+chart_set arc(double angle)
+{
+    constexpr taut::idx along = 40, across = 4;
+    std::vector<vec3> points;
+    std::vector<std::array<taut::idx, 3>> cells;
+    for (taut::idx i = 0; i <= along; ++i)
+        for (taut::idx j = 0; j <= across; ++j)
+        {
+            const double a = angle * i / along, r = 10 / angle + 0.25 * j;
+            points.emplace_back(r * std::cos(a), r * std::sin(a), 0);
+            if (i == along || j == across) continue;
+            const taut::idx v = i * (across + 1) + j, w = v + across + 1;
+            cells.push_back({v, v + 1, w + 1});
+            cells.push_back({v, w + 1, w});
+        }
+    const mesh<triangle> m(std::move(points), std::move(cells));
+    const auto f = facets(m);
+    std::vector<vec2> uv;
+    for (const auto& t : m.cells())
+        for (const taut::idx v : t) uv.emplace_back(m.points()[static_cast<std::size_t>(v)]);
+    return cut(m, f, {std::vector<char>(f.twin.size(), 0), std::move(uv), std::vector<double>(m.cells().size(), 4)});
+}
+
+} // namespace
+
+TEST_CASE("pressed charts: the ends of an arc come nearer, within the bound and without overlaps")
+{
+    queue q;
+    for (const double angle : {0.5, 6.0}) // nearly straight; its ends nearly meet
+        for (const double bound : {3.9, 4.02})
+        {
+            CAPTURE(angle);
+            CAPTURE(bound);
+            chart_set set = arc(angle);
+            const run_limits unlimited;
+            atlas_run run{q, unlimited};
+            const auto before = set.uv;
+            const double side = least_square::of(before).side;
+            chart_press(run, set, {}, bound).run(5);
+            CHECK(run.report.complete);
+            if (bound < 4)
+            {
+                CHECK(set.uv == before);
+                continue;
+            }
+            const double now = least_square::of(set.uv).side;
+            CHECK(now < (angle < 1 ? 0.95 : 1.001) * side);
+            CHECK(set.energy[0] <= bound);
+            const double energy = set.energy[0];
+            measure(set);
+            CHECK(set.energy[0] == doctest::Approx(energy));
+            CHECK_FALSE(overlaps_itself(set.charts, 0, set.uv));
+            CHECK(turned_triangle(set.charts, 0, set.uv) < 0);
+            chart_set again = arc(angle);
+            atlas_run other{q, unlimited};
+            chart_press(other, again, {}, bound).run(5);
+            CHECK(again.uv == set.uv);
+        }
+}
