@@ -109,13 +109,13 @@ public:
         if (wanted <= old) return;
         longest_.resize(std::max(wanted, 2 * old), width_);
         bits_.resize(longest_.size() * levels_ * words_, 0);
-        for (std::size_t r = old; r < longest_.size(); ++r)
-        {
-            std::uint64_t* bits = row(static_cast<idx>(r));
-            bits[words_ - 2] = ~std::uint64_t{0} << (width_ % 64);
-            bits[words_ - 1] = ~std::uint64_t{0};
-            update(static_cast<idx>(r));
-        }
+        const auto first = static_cast<idx>(old);
+        std::uint64_t* bits = row(first);
+        bits[words_ - 2] = ~std::uint64_t{0} << (width_ % 64);
+        bits[words_ - 1] = ~std::uint64_t{0};
+        update(first);
+        for (idx r = first + 1; r < this->rows(); ++r) std::copy_n(at(first, 0), levels_ * words_, at(r, 0));
+        std::fill(longest_.begin() + first, longest_.end(), longest_[old]);
     }
 
     /// Marks in `taken` the places of a mask in row y that are, of those in words [first, last), 64 places each;
@@ -194,13 +194,15 @@ private:
     /// to(x) = a(x) or b(x + by)
     void spread(std::uint64_t* to, const std::uint64_t* a, const std::uint64_t* b, std::size_t by) const
     {
-        const std::size_t skip = by / 64, low = by % 64;
-        const auto word = [&](std::size_t w) { return w < words_ ? b[w] : ~std::uint64_t{0}; };
-        for (std::size_t w = 0; w < words_; ++w)
-        {
-            const std::uint64_t first = word(w + skip) >> low;
-            to[w] = a[w] | (low == 0 ? first : first | word(w + skip + 1) << (64 - low));
-        }
+        const std::size_t skip = by / 64, low = by % 64, inner = words_ > skip ? words_ - skip - 1 : 0;
+        if (low == 0)
+            for (std::size_t w = 0; w < inner; ++w) to[w] = a[w] | b[w + skip];
+        else
+            for (std::size_t w = 0; w < inner; ++w) to[w] = a[w] | b[w + skip] >> low | b[w + skip + 1] << (64 - low);
+        for (std::size_t w = inner; w < words_; ++w) to[w] = ~std::uint64_t{0};
+        if (inner + skip + 1 != words_) return;
+        const std::uint64_t last = b[words_ - 1] >> low;
+        to[inner] = a[inner] | (low == 0 ? last : last | ~std::uint64_t{0} << (64 - low));
     }
 
     idx width_;
