@@ -56,7 +56,7 @@ public:
         std::iota(all.begin(), all.end(), idx(0));
         auto charts = charts_of(all, seam);
         std::vector<char> first = seam;
-        const double at_first = use_of(charts, packing_effort::full);
+        const double at_first = use_ = use_of(charts, packing_effort::full);
         if (!(at_first < enough)) return first;
         double best_use = use_of(charts, packing_effort::estimate), use = best_use, spent = 0;
         double cost = 0, best_cost = 0;
@@ -75,9 +75,14 @@ public:
             best_cost = cost;
         }
         if (best_cost == 0) return first;
-        const double gain = use_of(best, packing_effort::full) - at_first;
-        return gain > least * best_cost ? best : first;
+        const double at_best = use_of(best, packing_effort::full);
+        if (!(at_best - at_first > least * best_cost)) return first;
+        use_ = at_best;
+        return best;
     }
+
+    /// How much of the square the charts use that run() has returned.
+    double use() const { return use_; }
 
     /// How much of the square charts use, about.
     double use_of(std::span<const char> seam, packing_effort effort = packing_effort::estimate)
@@ -248,6 +253,7 @@ private:
     run_limits limits_; // of each layout
     double area_;
     std::vector<char> mark_; // of triangles, 0 between calls
+    double use_ = 0;
 };
 
 } // namespace taut::impl

@@ -107,29 +107,31 @@ inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
     const double longest = least_length * std::sqrt(area) + by_seams * length_of_seams(of.surface, of.facets, set.seam);
     const pack_params packing = packing_of_square(of.params);
     const run_limits left = run.limits("pack");
-    const auto press = [&]
-    { chart_press(run, set, packing, bound_of_search(of)).run(of.params.charts.max_distortion); };
     const auto prices = of.prices();
-    // Whether there are cuts that gain; if_enough: they are made only if the square is used enough then
-    const auto cut_further = [&](bool if_enough)
+    laid_surface flat; // with the seams of cuts
+    const auto find_cuts = [&]
     {
-        auto flat = laid(set);
+        flat = laid(set);
         filled_square filling(of.surface, of.facets, flat.uv, prices, packing, {left.time_limit, {}});
-        auto seam = filling.run(set.seam, longest, [&left] { return left.observer({}); });
-        const bool some = seam != set.seam;
-        if (!some || (if_enough && filling.use_of(seam, packing_effort::full) < filled_square::enough)) return some;
-        flat.seam = std::move(seam);
+        flat.seam = filling.run(set.seam, longest, [&left] { return left.observer({}); });
+        return filling.use();
+    };
+    const auto press = [&]
+    { return chart_press(run, set, packing, bound_of_search(of)).run(of.params.charts.max_distortion); };
+    const double use = find_cuts();
+    bool cuts = flat.seam != set.seam;
+    // Charts that are bent gain less by cuts: where these alone are enough, they come first.
+    const bool enough = cuts && use >= filled_square::enough;
+    if (!enough && press() && cuts)
+    {
+        find_cuts();
+        cuts = flat.seam != set.seam;
+    }
+    if (cuts)
+    {
         set = cut(of, std::move(flat));
         measure(set);
-        return true;
-    };
-    // Charts that are bent gain less by cuts: where these alone are enough, they come first.
-    const auto before = set.charts.charts();
-    const bool cuts = cut_further(true);
-    if (set.charts.charts() == before)
-    {
-        press();
-        if (cuts && cut_further(false)) press();
+        if (!enough) press();
     }
     run.report.seconds.pack += run.clock.lap();
 }

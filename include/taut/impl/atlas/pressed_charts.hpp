@@ -73,13 +73,15 @@ public:
         return use < enough && use * side * side > leads * laid_area() ? leader : -1;
     }
 
-    /// Bends one after the other, until the bound is reached or it gains nothing. most: energy of a chart
-    void run(double most)
+    /// Bends one after the other, until the bound is reached or it gains nothing. most: energy of a chart. Returns
+    /// whether any is in a smaller square then.
+    bool run(double most)
     {
         most_ = most;
         constexpr int rounds = 8;
         for (int k = 0; k < rounds && run_.report.complete && mean() < bound_; ++k)
-            if (const idx chart = leader(); chart < 0 || !bend(chart)) return;
+            if (const idx chart = leader(); chart < 0 || !bend(chart)) break;
+        return changed_;
     }
 
 private:
@@ -181,6 +183,7 @@ private:
         const bool gains = laid_area() / (then * then) > (1 + least_gain) * before;
         if (!gains) std::copy(from.begin(), from.end(), x.begin());
         set_.energy[u(chart)] = area_and_energy(set_.charts, u(chart), set_.uv, ideal_).second;
+        changed_ = changed_ || gains;
         return gains && made == 1;
     }
 
@@ -188,6 +191,7 @@ private:
     chart_set& set_;
     pack_params packing_;
     double bound_, most_ = 0;
+    bool changed_ = false;
     ideal_elements<triangle> ideal_;
 };
 
