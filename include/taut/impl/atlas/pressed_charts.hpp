@@ -43,17 +43,19 @@ struct least_square
 class chart_press
 {
 public:
-    /// Refers to the run and to `set`, which is changed; bound: of the mean energy at the best common scale
+    /// Refers to the run and to `set`, which is changed; bound: of the mean energy at the common scale
     chart_press(atlas_run& run, chart_set& set, pack_params packing, double bound)
         : run_(run), set_(set), packing_(std::move(packing)), bound_(bound), ideal_(set.charts.surface)
     {
     }
 
-    /// The chart whose square keeps the tile large, where charts use little of it; -1: none does.
+    /// The chart whose square keeps the tile large, where charts use little of it; -1: none does. What is hardly
+    /// distorted is not to be: what is plane, or unrolls, keeps its straight lines.
     idx leader()
     {
         constexpr idx few = 16;                      // charts
         constexpr double enough = 0.6, leads = 0.95; // use of the tile; the square of the chart by the tile
+        constexpr double least = 0.5;                // of what is allowed
         const auto& charts = set_.charts;
         if (charts.charts() > few) return -1;
         for (const double e : set_.energy)
@@ -70,7 +72,8 @@ public:
                 side = own;
                 leader = k;
             }
-        return use < enough && use * side * side > leads * laid_area() ? leader : -1;
+        const bool bent = leader >= 0 && set_.energy[u(leader)] - 4 > least * (bound_ - 4);
+        return bent && use < enough && use * side * side > leads * laid_area() ? leader : -1;
     }
 
     /// Bends one after the other, until the bound is reached or it gains nothing. most: energy of a chart. Returns
@@ -110,20 +113,21 @@ private:
         return sum;
     }
 
-    /// Energy of all charts at their best common scale.
+    /// Energy of all charts at their common scale, as reported: that of equal areas.
     double mean() const
     {
-        double area = 0, stretch = 0, shrink = 0; // |S|^2 and |S^-1|^2 by area
+        double area = 0, in_plane = 0, stretch = 0, shrink = 0; // |S|^2 and |S^-1|^2 by area
         for (std::size_t c = 0; c < ideal_.measure.size(); ++c)
         {
             const mat2 S = shape(c);
             const double det = glm::determinant(S);
             if (!(det > 0)) return std::numeric_limits<double>::infinity();
             area += ideal_.measure[c];
+            in_plane += ideal_.measure[c] * det;
             stretch += ideal_.measure[c] * norm2(S);
             shrink += ideal_.measure[c] * (norm2(S) / (det * det));
         }
-        return 2 * std::sqrt(stretch) * std::sqrt(shrink) / area;
+        return stretch / in_plane + shrink * in_plane / (area * area);
     }
 
     /// Returns whether all of a step was made.

@@ -299,8 +299,8 @@ inline chart_set finished(atlas_run& run, const atlas_surface& of, const short_s
     {
         // What charts that are to be bent need of it, so that the square is used more.
         constexpr double bending = 0.04;
-        const bool presses =
-            fills_squares(of.params) && chart_press(run, set, packing_of_square(of.params), 0).leader() >= 0;
+        const bool presses = fills_squares(of.params) &&
+                             chart_press(run, set, packing_of_square(of.params), bound_of_search(of)).leader() >= 0;
         const double bound = bound_of_search(of, presses ? bending : 0);
         sew_up(of, set, best.plain, true, bound, limits);
         if (std::count(best.plain.begin(), best.plain.end(), char(0)) > 0 && report.complete)
