@@ -452,7 +452,7 @@ def polygons_as_fans():
             _, uv, _, texcoords = read("out.obj")
             over = sum(min(cross(uv[t[0]], uv[t[k]], uv[t[k + 1]]) for k in (1, 2)) <= 0 for t in texcoords)
             assert told["reversed_fans"] == over and not (whole and over), (command, first, over, told["reversed_fans"])
-            assert command == "unwrap" or whole or over == 2, over
+            assert command == "unwrap" or whole or over > 0, over
         done = run("check", "dart.obj")
         assert ("cuts polygons as fans" in done.stderr + done.stdout) == (not whole)
     # Squares of a hill with a corner in the middle of a side: flat triangles of fans in space may turn over in the map.
