@@ -56,6 +56,7 @@ public:
         constexpr idx few = 16;                      // charts
         constexpr double enough = 0.6, leads = 0.95; // use of the tile; the square of the chart by the tile
         constexpr double least = 0.5;                // of what is allowed
+        constexpr idx largest = 20'000;              // triangles: more take longer than all else
         const auto& charts = set_.charts;
         if (charts.charts() > few) return -1;
         for (const double e : set_.energy)
@@ -72,7 +73,8 @@ public:
                 side = own;
                 leader = k;
             }
-        const bool bent = leader >= 0 && set_.energy[u(leader)] - 4 > least * (bound_ - 4);
+        if (leader < 0 || charts.first_cell[u(leader) + 1] - charts.first_cell[u(leader)] > largest) return -1;
+        const bool bent = set_.energy[u(leader)] - 4 > least * (bound_ - 4);
         return bent && use < enough && use * side * side > leads * laid_area() ? leader : -1;
     }
 

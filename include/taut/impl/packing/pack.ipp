@@ -314,11 +314,11 @@ private:
             {
                 for (std::size_t c = begin; c < end; ++c)
                 {
-                    for (int k = 0; k < turns; ++k)
+                    const bool alone = turns >= 8 && n == 1 && params_.walls.empty(); // the square is all it needs
+                    for (int k = 0; k < turns && !alone; ++k)
                         poses_[c].push_back(make_pose(pieces_[c], 2 * std::numbers::pi * k / turns, cells_per_length_));
-                    if (turns < 8) continue;
-                    if (n == 1 && params_.walls.empty()) poses_[c].clear(); // the square is all it needs
-                    poses_[c].push_back(make_pose(pieces_[c], squarest_turn(pieces_[c]), cells_per_length_));
+                    if (turns >= 8)
+                        poses_[c].push_back(make_pose(pieces_[c], squarest_turn(pieces_[c]), cells_per_length_));
                 }
             },
             0, 1);
