@@ -168,8 +168,8 @@ inline std::span<const start_maker> start_makers()
              solver.proceed = proceed;
              try
              {
-                 start.map =
-                     barycentric_map(run.in.surface, run.in.sides, run.params.barycentric(), std::move(solver), proceed);
+                 start.map = barycentric_map(run.in.surface, run.in.sides, run.params.barycentric(), std::move(solver),
+                                             proceed);
              }
              catch (const elimination_solver::stopped&)
              {
