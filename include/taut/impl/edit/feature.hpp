@@ -15,8 +15,6 @@ namespace taut
 /// rim; the displacement of the region from it is the detail.
 struct feature
 {
-    feature() = default;
-
     /// Takes a region. Throws region_error for one whose rim encloses no area: its base has no normal.
     explicit feature(impl::surface_region of);
 

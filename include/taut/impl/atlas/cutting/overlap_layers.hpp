@@ -115,9 +115,11 @@ private:
         const std::array<vec2, 3> t = {(uv[0] - low_) / size_, (uv[1] - low_) / size_, (uv[2] - low_) / size_};
         const vec2 least = glm::max(glm::min(glm::min(t[0], t[1]), t[2]), vec2(0.0));
         const vec2 most = glm::min(glm::max(glm::max(t[0], t[1]), t[2]), vec2(columns_ - 1, rows_ - 1));
-        for (double i = std::floor(least.x); i <= most.x; ++i)
-            for (double j = std::floor(least.y); j <= most.y; ++j)
-                if (!beyond_a_side(t, i, j)) f(static_cast<idx>(i) * rows_ + static_cast<idx>(j));
+        if (!(least.x <= most.x && least.y <= most.y)) return;
+        const auto whole = [](double x) { return static_cast<idx>(x); };
+        for (idx i = whole(least.x); i <= whole(most.x); ++i)
+            for (idx j = whole(least.y); j <= whole(most.y); ++j)
+                if (!beyond_a_side(t, i, j)) f(i * rows_ + j);
     }
 
     vec2 low_{0.0};
