@@ -11,6 +11,7 @@
 
 #include <taut/impl/atlas/atlas_run.hpp>
 #include <taut/impl/atlas/chart_border.hpp>
+#include <taut/impl/atlas/filled_square.hpp>
 #include <taut/impl/map/parameterize.hpp>
 #include <taut/impl/packing/outlines.hpp>
 #include <taut/impl/packing/pack.hpp>
@@ -53,10 +54,10 @@ public:
     /// distorted is not to be: what is plane, or unrolls, keeps its straight lines.
     idx leader()
     {
-        constexpr idx few = 16;                      // charts
-        constexpr double enough = 0.6, leads = 0.95; // use of the tile; the square of the chart by the tile
-        constexpr double least = 0.5;                // of what is allowed
-        constexpr idx largest = 20'000;              // triangles: more take longer than all else
+        constexpr idx few = 16;         // charts
+        constexpr double leads = 0.95;  // the square of the chart by the tile
+        constexpr double least = 0.5;   // of what is allowed
+        constexpr idx largest = 20'000; // triangles: more take longer than all else
         const auto& charts = set_.charts;
         if (charts.charts() > few) return -1;
         for (const double e : set_.energy)
@@ -75,7 +76,7 @@ public:
             }
         if (leader < 0 || charts.first_cell[u(leader) + 1] - charts.first_cell[u(leader)] > largest) return -1;
         const bool bent = set_.energy[u(leader)] - 4 > least * (bound_ - 4);
-        return bent && use < enough && use * side * side > leads * laid_area() ? leader : -1;
+        return bent && use < filled_square::enough && use * side * side > leads * laid_area() ? leader : -1;
     }
 
     /// Bends one after the other, until the bound is reached or it gains nothing. most: energy of a chart. Returns
