@@ -223,38 +223,30 @@ inline vertex_fans fans_between(const mesh<triangle>& m, const facet_table& f, s
     return fans;
 }
 
-} // namespace taut::impl
-
-namespace taut
-{
-
-/// Cuts a surface apart along seams. Charts are the components connected across other edges, and a vertex becomes one
-/// vertex for each fan of its triangles between seams.
-/// m:    without non-manifold facets (mesh/facets.hpp), which are `f`
-/// seam: one flag per side, the same on both sides of an edge; sides without a twin need none
-inline chart_mesh cut_charts(const mesh<triangle>& m, const impl::facet_table& f, std::span<const char> seam)
+/// cut_charts() of a surface whose facets are f.
+inline chart_mesh cut_charts(const mesh<triangle>& m, const facet_table& f, std::span<const char> seam)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const std::size_t cells = m.cells().size();
     std::vector<idx> chart;
     idx charts = 0;
-    impl::vertex_fans fans;
-    impl::parallel_for(
+    vertex_fans fans;
+    parallel_for(
         2,
         [&](std::size_t begin, std::size_t end)
         {
             for (std::size_t task = begin; task < end; ++task)
                 if (task == 0)
-                    std::tie(chart, charts) = impl::pieces_between(f, seam);
+                    std::tie(chart, charts) = pieces_between(f, seam);
                 else
-                    fans = impl::fans_between(m, f, seam);
+                    fans = fans_between(m, f, seam);
         },
         0, 1);
     const auto sorted = [](std::size_t n, idx rows, auto&& row_of)
     {
         std::vector<idx> order(n);
-        auto start = impl::counting_sort(n, static_cast<std::size_t>(rows), row_of,
-                                         [&](std::size_t i, std::size_t at) { order[at] = static_cast<idx>(i); });
+        auto start = counting_sort(n, static_cast<std::size_t>(rows), row_of,
+                                   [&](std::size_t i, std::size_t at) { order[at] = static_cast<idx>(i); });
         return std::pair(std::move(start), std::move(order));
     };
     auto [first_cell, cell_origins] = sorted(cells, charts, [&](std::size_t c) { return chart[c]; });
@@ -268,26 +260,41 @@ inline chart_mesh cut_charts(const mesh<triangle>& m, const impl::facet_table& f
     std::vector<vec3> points(order.size());
     std::vector<idx> vertex_origins(order.size()), place(order.size()); // of each fan
     std::vector<std::array<idx, 3>> cut(cells);
-    impl::parallel_for(order.size(),
-                       [&, &order = order](std::size_t begin, std::size_t end)
-                       {
-                           for (std::size_t i = begin; i < end; ++i)
-                           {
-                               const idx fan = by_vertex[u(order[i])];
-                               place[u(fan)] = static_cast<idx>(i);
-                               vertex_origins[i] = fans.vertex(m, u(fan));
-                               points[i] = m.points()[u(vertex_origins[i])];
-                           }
-                       });
-    impl::parallel_for(cells,
-                       [&, &cell_origins = cell_origins](std::size_t begin, std::size_t end)
-                       {
-                           for (std::size_t i = begin; i < end; ++i)
-                               for (std::size_t k = 0; k < 3; ++k)
-                                   cut[i][k] = place[u(fans.of_corner[3 * u(cell_origins[i]) + k])];
-                       });
+    parallel_for(order.size(),
+                 [&, &order = order](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t i = begin; i < end; ++i)
+                     {
+                         const idx fan = by_vertex[u(order[i])];
+                         place[u(fan)] = static_cast<idx>(i);
+                         vertex_origins[i] = fans.vertex(m, u(fan));
+                         points[i] = m.points()[u(vertex_origins[i])];
+                     }
+                 });
+    parallel_for(cells,
+                 [&, &cell_origins = cell_origins](std::size_t begin, std::size_t end)
+                 {
+                     for (std::size_t i = begin; i < end; ++i)
+                         for (std::size_t k = 0; k < 3; ++k)
+                             cut[i][k] = place[u(fans.of_corner[3 * u(cell_origins[i]) + k])];
+                 });
     return {mesh<triangle>(std::move(points), std::move(cut)), std::move(first_cell), std::move(first_vertex),
             std::move(cell_origins), std::move(vertex_origins)};
+}
+
+} // namespace taut::impl
+
+namespace taut
+{
+
+/// Cuts a surface apart along seams. Charts are the components connected across other edges, and a vertex becomes one
+/// vertex for each fan of its triangles between seams.
+/// m:    at most two triangles share an edge
+/// seam: one flag per side, the same on both sides of an edge; side 3 t + k is the edge of triangle t opposite its
+///       corner k. Boundary edges need no flag
+inline chart_mesh cut_charts(const mesh<triangle>& m, std::span<const char> seam)
+{
+    return impl::cut_charts(m, impl::facets(m), seam);
 }
 
 } // namespace taut

@@ -251,6 +251,12 @@ private:
     std::vector<kind> kind_;     // of components, at their first vertex
 };
 
+/// cut_to_disk() of a surface whose facets are f.
+inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const facet_table& f)
+{
+    return disk_cutting(m, f).run();
+}
+
 } // namespace taut::impl
 
 namespace taut
@@ -260,10 +266,10 @@ namespace taut
 /// joined by short paths, and a closed component without handles is cut along paths between distant points, such as the
 /// tips of limbs. Seams prefer creases. For cut_charts().
 ///
-/// m: an oriented manifold; f: its facets. Returns one flag per side. Time O(n log n).
-inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const impl::facet_table& f)
+/// m: an oriented manifold. Returns one flag per side, as cut_charts() takes them. Time O(n log n).
+inline std::vector<char> cut_to_disk(const mesh<triangle>& m)
 {
-    return impl::disk_cutting(m, f).run();
+    return impl::cut_to_disk(m, impl::facets(m));
 }
 
 } // namespace taut

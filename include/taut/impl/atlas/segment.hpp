@@ -162,6 +162,14 @@ charts_to_maps maps_by(Flatten& flatten)
     };
 }
 
+/// segment() of a surface whose facets are f.
+template <class Flatten>
+segmentation segment(const mesh<triangle>& m, const facet_table& f, Flatten&& flatten,
+                     const segment_params& params = {}, const run_limits& limits = {})
+{
+    return cut_apart(m, f, segment_surface(m, f, maps_by(flatten), params, limits), params);
+}
+
 } // namespace taut::impl
 
 namespace taut
@@ -175,7 +183,7 @@ namespace taut
 /// are above the bound, and united where that is possible (cluster_tree.hpp). Deterministic if `flatten` is. Time O(n
 /// log n) beside that of `flatten`.
 ///
-/// m: an oriented manifold without flat triangles; f: its facets
+/// m: an oriented manifold without flat triangles
 /// flatten: callable with a chart_mesh, returns uv (one per vertex), and charts with `valid` and `energy` each. It may
 ///    take a second argument, std::span<const vec2>, the initial map, and report settled() of charts: then it may
 ///    return unfinished maps, as many charts are cut anyway. Remaining charts that are not settled are passed again
@@ -184,10 +192,10 @@ namespace taut
 ///    within it
 /// Throws parameter_error; mesh_error (non_manifold_facet, inconsistent_orientation).
 template <class Flatten>
-segmentation segment(const mesh<triangle>& m, const impl::facet_table& f, Flatten&& flatten,
-                     const segment_params& params = {}, const run_limits& limits = {})
+segmentation segment(const mesh<triangle>& m, Flatten&& flatten, const segment_params& params = {},
+                     const run_limits& limits = {})
 {
-    return impl::cut_apart(m, f, impl::segment_surface(m, f, impl::maps_by(flatten), params, limits), params);
+    return impl::segment(m, impl::facets(m), flatten, params, limits);
 }
 
 } // namespace taut

@@ -72,6 +72,10 @@ struct mirror_symmetry
     }
 };
 
+/// find_symmetry() of a surface whose facets are f.
+mirror_symmetry find_symmetry(const mesh<triangle>& m, const facet_table& f, std::span<const char> together = {},
+                              double tolerance = 1e-4);
+
 } // namespace taut::impl
 
 namespace taut
@@ -81,8 +85,11 @@ namespace taut
 /// together:  diagonals of polygons, as in segment_params: they need no images
 /// tolerance: maximum distance of a vertex from the image of another one, relative to the diagonal of the box
 /// Throws symmetry_error if there is none.
-impl::mirror_symmetry find_symmetry(const mesh<triangle>& m, const impl::facet_table& f,
-                                    std::span<const char> together = {}, double tolerance = 1e-4);
+inline impl::mirror_symmetry find_symmetry(const mesh<triangle>& m, std::span<const char> together = {},
+                                           double tolerance = 1e-4)
+{
+    return impl::find_symmetry(m, impl::facets(m), together, tolerance);
+}
 
 } // namespace taut
 

@@ -216,10 +216,10 @@ std::string symmetry_error::message(const vec3& normal, double offset, const std
            (edges ? " edges without a mirror image" : " no mirror image") + "; move them, or leave symmetry out";
 }
 
-impl::mirror_symmetry find_symmetry(const mesh<triangle>& m, const impl::facet_table& f, std::span<const char> together,
-                                    double tolerance)
+impl::mirror_symmetry impl::find_symmetry(const mesh<triangle>& m, const facet_table& f, std::span<const char> together,
+                                          double tolerance)
 {
-    return impl::symmetry_search(m, f, together, tolerance).run();
+    return symmetry_search(m, f, together, tolerance).run();
 }
 
 } // namespace taut
