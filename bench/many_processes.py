@@ -3,7 +3,7 @@
 """many_processes.py [--sizes 8,16,32] [--processes 1,2] [--motions stretch,twist,bend] [--bin build/release/bin] [--folder F]
 
 `taut deform` and `taut-mpi deform` on bars of 24 n^3 tetrahedra, 1 x 1 x 4, jittered inside, whose end is stretched by 1.5,
-twisted by 90 degrees, or bent by 90 degrees: a table for docs/explanation/performance.md. Each run is made twice, and the
+twisted by 90 degrees, or bent by 90 degrees: a table for docs/explanation/distribution.md. Each run is made twice, and the
 second one counts, so that kernels are compiled. Processor seconds are of all processes, waiting in MPI included."""
 import argparse
 import json

@@ -5,7 +5,7 @@
 A channel with a flat body inside, meshed by gmsh; the body is moved, and the walls are held. Mesh motion of OpenFOAM
 (displacementLaplacian with inverse-distance diffusivity, displacementSBRStress), in --steps time steps, beside `taut-mpi
 deform` in one call: inverted cells, worst non-orthogonality and skewness by OpenFOAM's own checkMesh, seconds, processor
-seconds and memory: a table for docs/explanation/performance.md. Needs gmsh and OpenFOAM, which Debian has."""
+seconds and memory: a table for docs/explanation/distribution.md. Needs gmsh and OpenFOAM, which Debian has."""
 import argparse
 import os
 import re
