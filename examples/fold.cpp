@@ -39,7 +39,7 @@ try
     if (x.empty()) throw error(report.reason);
 
     io::atomic_file out(argv[2]);
-    io::write_moved(out, file, x); // the same file with its vertices at other places
+    file.write(out, x); // the same file with its vertices at other places
     out.commit();
     // [fold]
     std::cout << pins.pins().size() << " vertices held" << (report.converged ? ", converged, " : ", ")

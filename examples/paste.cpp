@@ -32,7 +32,7 @@ try
     if (argc > 6)
     {
         io::atomic_file out(argv[6]);
-        io::write_paste(out, p, target, source);
+        p.write(out, target, source);
         out.commit();
     }
     const auto seam = p.measure_seam();

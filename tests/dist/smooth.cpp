@@ -108,7 +108,7 @@ TEST_CASE("dist smooth: interfaces between regions, and lines where labelled fac
     REQUIRE(faces.size() == 2 * n * n);
     queue& q = common_queue();
     const auto one = smooth(q, m,
-                            smooth_params<tetrahedron>{.kept = io::kept_facets(file, true),
+                            smooth_params<tetrahedron>{.kept = file.kept_facets(true),
                                                        .precision = precision::fp64,
                                                        .solve = {.stopping = {.gradient_tolerance = 1e-8}}});
     for (int processes = 1; processes <= size_of(); ++processes)

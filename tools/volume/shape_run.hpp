@@ -114,7 +114,7 @@ private:
     {
         if (options_.free_interfaces) return;
         const auto& file = input_->file();
-        kept_facets_ = io::kept_facets(file, options_.boundary == smooth_boundary::sliding);
+        kept_facets_ = file.kept_facets(options_.boundary == smooth_boundary::sliding);
         std::vector<char> outside(file.points.size(), 0), inside = outside;
         for (const auto& facet : impl::boundary_facets(input_->simplices(), input_->owners()))
             for (const idx v : facet) outside[static_cast<std::size_t>(v)] = 1;

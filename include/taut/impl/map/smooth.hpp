@@ -43,8 +43,8 @@ struct smooth_params
     std::vector<idx> fixed = {};
 
     /// Facets, inside or on the boundary, of surfaces that keep their shape whatever the boundary does: interfaces
-    /// between materials, named pieces of the boundary (io::kept_facets() finds them). Flat pieces slide in their
-    /// planes, straight lines where pieces meet or end along themselves; curved parts are fixed.
+    /// between materials, named pieces of the boundary (io::volume_file::kept_facets() finds them). Flat pieces slide
+    /// in their planes, straight lines where pieces meet or end along themselves; curved parts are fixed.
     std::vector<impl::kept_facet> kept = {};
 
     taut::precision precision = precision::automatic;
