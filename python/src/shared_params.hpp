@@ -52,7 +52,7 @@ void read_energy(Params& params, const options& given)
 {
     if (any_energy energy = params.energy; given.read("energy", energy)) params.energy = energy;
     params.data = data_of(given);
-    if (const auto a = given.rows("parameters")) params.parameters = numbers_of(*a);
+    if (const auto a = given.rows("parameters")) params.energy = params.energy.with_parameters(numbers_of(*a));
     given.read_word("weighting", params.weights,
                     {{"area", energy::weighting::measure},
                      {"volume", energy::weighting::measure},

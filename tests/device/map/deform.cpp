@@ -219,8 +219,7 @@ TEST_CASE("deform: an energy that is 0 at rest takes steps from there, in any pr
             CHECK(r.report.gradient < 1e-6);
             CHECK(r.report.steps < 12);
             const auto lame = energy::neo_hookean::of_poisson(poisson); // as numbers that kernels are given
-            params.energy = energy::neo_hookean_of_parameters{};
-            params.parameters = {lame.begin(), lame.end()};
+            params.energy = {energy::neo_hookean_of_parameters{}, {lame.begin(), lame.end()}};
             CHECK(deform(q, m, params).report.energy == doctest::Approx(r.report.energy).epsilon(1e-5));
         }
 }

@@ -22,14 +22,12 @@ struct deform_params
 {
     static constexpr int D = Element::dimension;
 
-    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts, alone or with parameters, as {cloth{}, {0.5}}; so do sums and
+    /// products of energies.
     any_energy energy = taut::impl::default_energy();
 
     /// Weights of elements in the sum: rest measure, as is usual, or all equal.
     energy::weighting weights = energy::weighting::measure;
-
-    /// Numbers that the energy reads as e.parameter(k).
-    std::vector<double> parameters = {};
 
     /// Pins, which are met bit for bit, and springs; of all processes together.
     dist::constraints<Element> constraints = {};

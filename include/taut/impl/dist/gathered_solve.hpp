@@ -158,11 +158,8 @@ private:
     {
         std::vector<vec3> points;
         std::vector<typename mesh<Element>::cell> simplices(cells.size());
-        taut::deform_params<Element> how{.energy = params.energy,
-                                         .weights = params.weights,
-                                         .parameters = params.parameters,
-                                         .shapes = params.shapes,
-                                         .precision = params.precision};
+        taut::deform_params<Element> how{
+            .energy = params.energy, .weights = params.weights, .shapes = params.shapes, .precision = params.precision};
         how.solve.stopping.gradient_tolerance = params.solve.stopping.gradient_tolerance;
         for (const auto& d : data)
         {

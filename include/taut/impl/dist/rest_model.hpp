@@ -37,7 +37,7 @@ public:
 
     /// Collective. Throws mesh_error.
     rest_model(const part<Element>& p, const deform_params<Element>& params)
-        : model{bound(params),
+        : model{params.energy,
                 taut::impl::types_of(params.precision == precision::automatic ? precision::fp64 : params.precision)}
     {
         double largest = 0;
@@ -83,11 +83,6 @@ public:
     }
 
 private:
-    static any_energy bound(const deform_params<Element>& params)
-    {
-        return params.parameters.empty() ? params.energy : params.energy.with_parameters(params.parameters);
-    }
-
     /// Cells that this process counts.
     double total(const part<Element>& p, const std::vector<double>& of_cells) const
     {

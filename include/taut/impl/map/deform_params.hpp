@@ -20,7 +20,8 @@ struct deform_params
 {
     static constexpr int D = Element::dimension;
 
-    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts, alone or with parameters, as {cloth{}, {0.5}}; so do sums and
+    /// products of energies.
     any_energy energy = impl::default_energy();
 
     /// Weights of elements in the sum: rest measure, as is usual, or all equal.
@@ -28,9 +29,6 @@ struct deform_params
 
     /// Data of single elements that energies read, in the order of the mesh.
     cell_data data = {};
-
-    /// Numbers that the energy reads as e.parameter(k): changing them needs no new kernel.
-    std::vector<double> parameters = {};
 
     /// Pins, which are met bit for bit, and springs.
     taut::constraints<Element> constraints = {};

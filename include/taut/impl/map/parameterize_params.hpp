@@ -37,7 +37,8 @@ enum class start_method
 /// Parameters of parameterize(). Every field has a sensible default.
 struct parameterize_params
 {
-    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts, alone or with parameters, as {cloth{}, {0.5}}; so do sums and
+    /// products of energies.
     any_energy energy = impl::default_energy();
 
     /// Weights of elements in the sum: rest area, as is usual, or all equal, as in the paper.
@@ -45,9 +46,6 @@ struct parameterize_params
 
     /// Data of single triangles that energies read, in the order of the mesh: weights, attributes, directions.
     cell_data data = {};
-
-    /// Numbers that the energy reads as e.parameter(k): changing them needs no new kernel.
-    std::vector<double> parameters = {};
 
     boundary_mode boundary = boundary_mode::free;
 

@@ -136,16 +136,16 @@ session_setup<Element> shape_setup(const mesh<Element>& m, const deform_params<E
 inline session_setup<hinge> shell_setup(const thin_shell& shell, const shell_params& params, const run_limits& limits)
 {
     params.validate();
-    auto setup = shape_setup<hinge>(shell.hinges(),
-                                    {.energy = energy::shell{},
-                                     .weights = energy::weighting::uniform,
-                                     .data = shell.rest(),
-                                     .parameters = {params.thickness ? *params.thickness / shell.mean_edge() : 1.0},
-                                     .constraints = params.constraints,
-                                     .initial = params.initial,
-                                     .precision = params.precision,
-                                     .solve = params.solve},
-                                    limits);
+    auto setup = shape_setup<hinge>(
+        shell.hinges(),
+        {.energy = {energy::shell{}, {params.thickness ? *params.thickness / shell.mean_edge() : 1.0}},
+         .weights = energy::weighting::uniform,
+         .data = shell.rest(),
+         .constraints = params.constraints,
+         .initial = params.initial,
+         .precision = params.precision,
+         .solve = params.solve},
+        limits);
     setup.of.surface = shell.surface();
     return setup;
 }
