@@ -21,8 +21,8 @@ void read_solver(Params& params, const options& given)
                      {"fp64", precision::fp64},
                      {"mixed", precision::mixed},
                      {"fp32", precision::fp32}});
-    given.read("tolerance", params.solve.stopping.gradient_tolerance);
-    given.read("iterations", params.solve.stopping.max_iterations);
+    given.read("tolerance", params.solve.gradient_tolerance);
+    given.read("iterations", params.solve.max_iterations);
 }
 
 /// The clock of a call, and who watches.

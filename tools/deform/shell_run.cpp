@@ -100,7 +100,7 @@ shell_params shell_run::params(const thin_shell& shell, const constraints<hinge>
 {
     thickness_ = options_.thickness.value_or(shell.mean_edge());
     shell_params p{.constraints = pins, .thickness = thickness_};
-    if (options_.tolerance) p.solve.stopping.gradient_tolerance = *options_.tolerance;
+    if (options_.tolerance) p.solve.gradient_tolerance = *options_.tolerance;
     return p;
 }
 

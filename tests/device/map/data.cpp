@@ -101,7 +101,7 @@ TEST_CASE("data: where weights are painted high, the map is less distorted, with
     queue q;
     for (const auto method : {solve::method::automatic, solve::method::lbfgs})
     {
-        const solve::params some{.method = method, .stopping = {.max_iterations = 300}};
+        const solve::params some{.method = method, .max_iterations = 300};
         const auto plain = parameterize(q, m, {.solve = some});
         const auto left = parameterize(q, m, {.data = {.weights = painted(m, 50, 1)}, .solve = some});
         REQUIRE(plain);

@@ -261,9 +261,8 @@ TEST_CASE("deform: what is bent is no better for starting elsewhere, and the sha
     CHECK(second.report.energy == doctest::Approx(direct.report.energy).epsilon(1e-7));
 
     // The deformed shape with the first one as its rest goes back.
-    deform_params<tetrahedron> back{.constraints = taut::constraints(m).fix(bottom(m)),
-                                    .rest = m.points(),
-                                    .solve = {.stopping = {.gradient_tolerance = 1e-9}}};
+    deform_params<tetrahedron> back{
+        .constraints = taut::constraints(m).fix(bottom(m)), .rest = m.points(), .solve = {.gradient_tolerance = 1e-9}};
     const auto home = deform(q, mesh<tetrahedron>(direct.x, m.cells()), back);
     CHECK(home.report.energy == doctest::Approx(2).epsilon(1e-9));
     double off = 0;
@@ -285,7 +284,7 @@ TEST_CASE("deform: patch test, an affine map of the boundary is the affine map i
         deform_params<tetrahedron> params{
             .constraints = taut::constraints(m).move(rim, [&](const vec3& p) { return A * p + vec3(3); }),
             .precision = how,
-            .solve = {.stopping = {.gradient_tolerance = 1e-12}}};
+            .solve = {.gradient_tolerance = 1e-12}};
         const auto r = deform(q, m, params);
         check_promises(m, params.constraints, r);
         double off = 0;

@@ -160,7 +160,7 @@ private:
         std::vector<typename mesh<Element>::cell> simplices(cells.size());
         taut::deform_params<Element> how{
             .energy = params.energy, .weights = params.weights, .shapes = params.shapes, .precision = params.precision};
-        how.solve.stopping.gradient_tolerance = params.solve.stopping.gradient_tolerance;
+        how.solve.gradient_tolerance = params.solve.gradient_tolerance;
         for (const auto& d : data)
         {
             if (d.owner >= 0) how.owners.push_back(static_cast<idx>(d.owner));

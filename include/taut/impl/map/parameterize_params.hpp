@@ -86,9 +86,9 @@ struct parameterize_params
     /// Newton's method always is.
     bool multigrid = false;
 
-    /// Solver parameters: method, line search (except of Newton's method, which is the `automatic` one here), stopping.
-    /// With stopping parameters given as a whole (`.stopping = {...}`), a run that has only settled goes on.
-    solve::params solve = {.stopping = {.settled_tolerance = 1e-4}};
+    /// Method, line search (except of Newton's method, which is the `automatic` one here), tolerances. Where they are
+    /// given as a whole (`.solve = {...}`), a run that has only settled goes on.
+    solve::params solve = {.tuning = {.stopping = {.settled_tolerance = 1e-4}}};
 
     /// Not for users: what tests and measurements set.
     impl::map_tuning tuning = {};

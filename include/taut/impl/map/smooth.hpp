@@ -48,7 +48,7 @@ struct smooth_params
     std::vector<impl::kept_facet> kept = {};
 
     taut::precision precision = precision::automatic;
-    solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
+    solve::params solve = {.gradient_tolerance = 1e-4};
 
     /// Throws parameter_error that names the field; deform_params says the rest.
     void validate() const
