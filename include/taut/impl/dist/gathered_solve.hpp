@@ -158,8 +158,10 @@ private:
     {
         std::vector<vec3> points;
         std::vector<typename mesh<Element>::cell> simplices(cells.size());
-        taut::deform_params<Element> how{
-            .energy = params.energy, .weights = params.weights, .shapes = params.shapes, .precision = params.precision};
+        taut::deform_params<Element> how{.energy = params.energy,
+                                         .weights = params.weights,
+                                         .regular = params.regular,
+                                         .precision = params.precision};
         how.solve.gradient_tolerance = params.solve.gradient_tolerance;
         for (const auto& d : data)
         {

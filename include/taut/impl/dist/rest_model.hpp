@@ -44,7 +44,7 @@ public:
         for (const vec3& x : p.points) largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
         largest = p.all.most(largest);
         const double unit = largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
-        const bool regular = params.shapes == target_shapes::regular;
+        const bool regular = params.regular;
         std::unique_ptr<mesh<Element>> m;
         std::unique_ptr<taut::impl::ideal_elements<Element>> ideal;
         p.all.together([&] { m = local_mesh(p, unit, regular); });
