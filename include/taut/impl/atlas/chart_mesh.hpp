@@ -289,5 +289,9 @@ inline chart_mesh cut_charts(const mesh<triangle>& m, const impl::facet_table& f
     return {mesh<triangle>(std::move(points), std::move(cut)), std::move(first_cell), std::move(first_vertex),
             std::move(cell_origins), std::move(vertex_origins)};
 }
+inline chart_mesh cut_charts(const mesh<triangle>& m, std::span<const char> seam)
+{
+    return cut_charts(m, impl::facets(m), seam);
+}
 
 } // namespace taut

@@ -265,5 +265,9 @@ inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const impl::facet_
 {
     return impl::disk_cutting(m, f).run();
 }
+inline std::vector<char> cut_to_disk(const mesh<triangle>& m)
+{
+    return cut_to_disk(m, impl::facets(m));
+}
 
 } // namespace taut

@@ -189,6 +189,12 @@ segmentation segment(const mesh<triangle>& m, const impl::facet_table& f, Flatte
 {
     return impl::cut_apart(m, f, impl::segment_surface(m, f, impl::maps_by(flatten), params, limits), params);
 }
+template <class Flatten>
+segmentation segment(const mesh<triangle>& m, Flatten&& flatten, const segment_params& params = {},
+                     const run_limits& limits = {})
+{
+    return segment(m, impl::facets(m), flatten, params, limits);
+}
 
 } // namespace taut
 

@@ -83,6 +83,11 @@ namespace taut
 /// Throws symmetry_error if there is none.
 impl::mirror_symmetry find_symmetry(const mesh<triangle>& m, const impl::facet_table& f,
                                     std::span<const char> together = {}, double tolerance = 1e-4);
+inline impl::mirror_symmetry find_symmetry(const mesh<triangle>& m, std::span<const char> together = {},
+                                           double tolerance = 1e-4)
+{
+    return find_symmetry(m, impl::facets(m), together, tolerance);
+}
 
 } // namespace taut
 
