@@ -3,6 +3,7 @@
 
 /// Reads surfaces, volumes, pins and problems.
 #include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/io/cut_seams.hpp>
 #include <taut/impl/io/pins.hpp>
 #include <taut/impl/io/prob.hpp>
 #include <taut/impl/io/read_surface.hpp>

@@ -20,7 +20,7 @@ void write_obj(atomic_file& out, const mesh<triangle>& surface, std::span<const 
 /// uv: one per vertex. Throws io_error; parameter_error if uv has another size.
 void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2> uv);
 
-/// The same for a map of the surface cut open, which `cut` was made from `file` by cut_seams().
+/// The same for a map of the surface cut open, which `cut` was made by file.cut_seams().
 /// uv: one per vertex of cut.surface.
 void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut, std::span<const vec2> uv);
 
