@@ -13,6 +13,10 @@ TEST_CASE("params: the defaults are valid")
 {
     CHECK_NOTHROW(params{}.validate());
     CHECK_NOTHROW(descent_params{}.validate());
+    const stopping_params usual, asked = params{}.common().stopping;
+    CHECK(asked.gradient_tolerance == usual.gradient_tolerance);
+    CHECK(asked.decrease_tolerance == usual.decrease_tolerance);
+    CHECK(asked.max_iterations == usual.max_iterations);
 }
 
 TEST_CASE("params: a bad field is named, also by minimize")

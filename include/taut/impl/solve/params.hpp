@@ -107,16 +107,16 @@ struct params
     /// A gradient is long where f is steep, not where much is left to gain. Newton's method stops, too, where the
     /// Hessian promises, twice in a row, a decrease of at most 1e-2 gradient_tolerance * |f - base|:
     /// Newton's decrement, which is the same in all units and scalings (Boyd & Vandenberghe 2004, 9.5).
-    double gradient_tolerance = impl::stopping_params{}.gradient_tolerance;
+    double gradient_tolerance = 1e-6;
 
     /// Stop after two decreases in a row of at most decrease_tolerance * |f - base|. A decrease along a step that a
     /// barrier cut is not counted; one that is lost in rounding is counted only where the gradient has reached no new
     /// low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop where the value, not the
     /// point, matters.
-    double decrease_tolerance = impl::stopping_params{}.decrease_tolerance;
+    double decrease_tolerance = 1e-14;
 
     /// Range >= 0.
-    int max_iterations = impl::stopping_params{}.max_iterations;
+    int max_iterations = 10000;
 
     /// Not for users: what tests and measurements set.
     impl::tuning tuning = {};
