@@ -7,6 +7,7 @@
 
 #include <support/edit_meshes.hpp>
 #include <support/meshes.hpp>
+#include <taut/impl/edit/paste.hpp>
 #include <taut/impl/edit/surface/surface_tree.hpp>
 #include <taut/impl/edit/write_feature_map.hpp>
 #include <taut/impl/mesh/validate.hpp>
