@@ -85,8 +85,8 @@ inline std::vector<solver> library_solvers(taut::queue& q)
     };
     const auto without_end = [](parameterize_params& p)
     {
-        p.solve.stopping.max_iterations = 1000000;
-        p.solve.stopping.gradient_tolerance = 0;
+        p.solve.max_iterations = 1000000;
+        p.solve.gradient_tolerance = 0;
     };
     add("nested", true, [](parameterize_params&) {}); // the default: coarse to fine, Newton with multigrid
     add("newton", true,                               // the same from the plain barycentric map

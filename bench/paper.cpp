@@ -45,8 +45,8 @@ nlohmann::ordered_json measure(queue& q, const std::string& name, const mesh<tri
     p.solve.line_search = how.line_search;
     p.solve.method = solve::method::conjugate_gradient;
     p.solve.tuning.conjugate_gradient.memory.pairs = how.pairs;
-    p.solve.stopping.max_iterations = iterations;
-    p.solve.stopping.gradient_tolerance = 0;
+    p.solve.max_iterations = iterations;
+    p.solve.gradient_tolerance = 0;
     const auto watch = [&](const taut::progress& at)
     {
         (at.iteration == 0 && at.iterate ? u.first : u.last) = q.counters();

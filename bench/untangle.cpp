@@ -160,9 +160,9 @@ private:
     minimum minimise(const untangle_problem<triangle>& problem, const constraints<triangle>& pins,
                      std::vector<vec2>& x) const
     {
-        const auto r = parameterize(
-            queue_, problem.rest,
-            {.constraints = pins, .initial = x, .holes = true, .solve = {.stopping = {.max_iterations = steps_}}});
+        const auto r =
+            parameterize(queue_, problem.rest,
+                         {.constraints = pins, .initial = x, .holes = true, .solve = {.max_iterations = steps_}});
         x = r.uv;
         const auto& s = r.report.solve;
         return {static_cast<bool>(r),
@@ -176,9 +176,9 @@ private:
     minimum minimise(const untangle_problem<tetrahedron>& problem, const constraints<tetrahedron>& pins,
                      std::vector<vec3>& x) const
     {
-        auto r = deform(queue_, problem.rest,
-                        deform_params<tetrahedron>{
-                            .constraints = pins, .initial = x, .solve = {.stopping = {.max_iterations = steps_}}});
+        auto r =
+            deform(queue_, problem.rest,
+                   deform_params<tetrahedron>{.constraints = pins, .initial = x, .solve = {.max_iterations = steps_}});
         x = std::move(r.x);
         const auto& s = r.report;
         return {r && s.pins_held, s.converged, s.energy,

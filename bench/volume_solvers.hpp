@@ -99,7 +99,8 @@ public:
         auto x = f.make_point();
         f.upload(start_, x);
         taut::solve::params how{.method = taut::solve::method::lbfgs};
-        how.stopping = {.gradient_tolerance = 0, .max_iterations = 1000000};
+        how.gradient_tolerance = 0;
+        how.max_iterations = 1000000;
         const auto watched = [&](const taut::progress& p)
         {
             if (!p.iterate) return true;

@@ -22,9 +22,7 @@ try
     const auto corners = atlas.corners();
     for (std::size_t c = 0; c < corners.size(); ++c)
         for (std::size_t k = 0; k < 3; ++k) texcoords[file.faces.corner(c, k)] = corners[c][k];
-    taut::io::atomic_file out(argv[2]);
-    taut::io::write_obj(out, file, texcoords, atlas.uv);
-    out.commit();
+    taut::io::write_obj(argv[2], file, texcoords, atlas.uv);
     // [atlas]
 }
 catch (const taut::error& e)

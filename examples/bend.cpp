@@ -45,7 +45,7 @@ try
     params.constraints = constraints(volume).fix(low).move(high, turn);
     const auto [x, report] = deform(q, volume, params);
     if (x.empty()) throw error(report.reason);
-    io::write_volume(argv[2], file, x);
+    file.write(argv[2], x);
     // [bend]
     std::cout << high.size() << " vertices turned, E " << report.energy << (report.converged ? ", converged, " : ", ")
               << report.flips.flipped << " of " << report.flips.elements << " inverted\n";

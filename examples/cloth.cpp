@@ -48,7 +48,7 @@ int main(int argc, char** argv)
         double before = 0;
         for (const double slider : {0.0, 1.0, 2.0}) // kernels are built once
         {
-            const auto map = parameterize(q, surface, {.energy = cloth{}, .data = data, .parameters = {slider}});
+            const auto map = parameterize(q, surface, {.energy = {cloth{}, {slider}}, .data = data});
             std::cout << "slider " << slider << ": " << map.report << '\n';
             if (!map || map.report.solve.value < before) return 1; // a stiffer cloth costs more
             before = map.report.solve.value;

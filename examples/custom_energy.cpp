@@ -76,8 +76,7 @@ int main()
         return 1;
     }
 
-    auto [uv, report] =
-        parameterize(q, surface, {.energy = mixed, .solve = {.stopping = {.gradient_tolerance = 1e-5}}});
+    auto [uv, report] = parameterize(q, surface, {.energy = mixed, .solve = {.gradient_tolerance = 1e-5}});
     // [use]
     const auto stiff = parameterize(q, surface, {.energy = rigid{}});
     if (!check_gradient<2>(rigid{}) || !stiff) return 1;

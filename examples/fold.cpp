@@ -38,9 +38,7 @@ try
     const auto [x, report] = deform(q, shell, shell_params{.constraints = pins, .thickness = thickness});
     if (x.empty()) throw error(report.reason);
 
-    io::atomic_file out(argv[2]);
-    io::write_moved(out, file, x); // the same file with its vertices at other places
-    out.commit();
+    file.write(argv[2], x); // with its vertices at other places
     // [fold]
     std::cout << pins.pins().size() << " vertices held" << (report.converged ? ", converged, " : ", ")
               << report.flips.flipped << " of " << report.flips.elements << " collapsed\n";

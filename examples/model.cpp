@@ -11,7 +11,7 @@ using namespace taut;
 /// Coordinates as the file will hold them: floats, of v that runs downwards.
 vec2 in_gltf(vec2 x)
 {
-    const vec2 y = io::texcoord_in_gltf({x.x, -x.y});
+    const vec2 y = io::gltf_model::rounded({x.x, -x.y});
     return {y.x, -y.y};
 }
 // [stored]
@@ -20,7 +20,7 @@ io::gltf_model read(const std::filesystem::path& path)
 {
     if (io::is_gltf(path)) return io::read_gltf(path);
     const auto surface = io::read_surface(path);
-    return io::gltf_of(surface.points(), surface.cells());
+    return io::gltf_model(surface.points(), surface.cells());
 }
 
 int main(int argc, char** argv)
@@ -28,7 +28,7 @@ try
 {
     if (argc != 3) return 2;
     queue q;
-    const auto model = read(argv[1]); // io::read_gltf(), or io::gltf_of() of other surfaces
+    const auto model = read(argv[1]); // io::read_gltf(), or gltf_model() of other surfaces
     // [atlas]
     const mesh<triangle> surface(model.points, model.triangles);
     const auto atlas = make_atlas(q, surface, {.origin = {0, -1}, .stored = in_gltf}); // certified as it is stored
@@ -42,7 +42,7 @@ try
             const vec2 x = atlas.uv[static_cast<std::size_t>(corners[t][k])];
             uv[t][k] = {x.x, -x.y};
         }
-    io::write_gltf(argv[2], model, uv);
+    model.write(argv[2], uv);
     // [atlas]
     if (!atlas) std::cerr << atlas.report.reason << '\n';
     return atlas ? 0 : 1;

@@ -27,7 +27,7 @@ try
 
     std::vector<taut::vec3> points;
     for (const taut::vec2& p : x) points.emplace_back(p, 0.0);
-    taut::io::write_volume(argv[2], file, points);
+    file.write(argv[2], points);
     // [wall]
     std::cout << wall.size() << " vertices of the wall moved, " << (report.pins_held ? "pins exact, " : "pins missed, ")
               << report.flips.flipped << " of " << report.flips.elements << " inverted\n";

@@ -29,12 +29,7 @@ try
     const auto once = p.surface(); // the target of the next paste; p.target() is as it was
     // [paste]
 
-    if (argc > 6)
-    {
-        io::atomic_file out(argv[6]);
-        io::write_paste(out, p, target, source);
-        out.commit();
-    }
+    if (argc > 6) p.write(argv[6], target, source);
     const auto seam = p.measure_seam();
     std::cout << p.report().feature_triangles << " triangles pasted, rim " << p.report().way << ", "
               << (seam.manifold ? "manifold" : "not manifold") << ", " << seam.boundary_edges << " boundary edges, "

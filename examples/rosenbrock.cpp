@@ -74,15 +74,14 @@ int main()
     // [gradient]
     solve::host_objective f(100, valley); // a lambda will do as well
     std::vector<double> x = start;
-    const auto report = solve::minimize(f, x, {.stopping = {.gradient_tolerance = 1e-10}});
+    const auto report = solve::minimize(f, x, {.gradient_tolerance = 1e-10});
     std::cout << report << ", x[0] = " << x[0] << '\n';
     // [gradient]
 
     // [newton]
     valley_with_hessian g(100);
     std::vector<double> y = start;
-    const auto second =
-        solve::minimize(g, y, {.method = solve::method::newton, .stopping = {.gradient_tolerance = 1e-10}});
+    const auto second = solve::minimize(g, y, {.method = solve::method::newton, .gradient_tolerance = 1e-10});
     std::cout << second << ", x[0] = " << y[0] << '\n';
     // [newton]
 }

@@ -14,9 +14,9 @@ try
     const auto& group = file.find_group(argv[3]); // "inlet", "triangles:2", or 2 if one group ends so
     for (const taut::idx v : group.vertices) points[static_cast<std::size_t>(v)].z += 0.25;
 
-    const auto kept = taut::io::rounded_to_file(file, points); // what single precision would make of them
+    const auto kept = file.rounded(points); // what single precision would make of them
     const auto flipped = taut::certify<3>(mesh.cells(), std::span<const taut::vec3>(kept)).flipped;
-    taut::io::write_volume(argv[2], file, points); // every other byte as it was
+    file.write(argv[2], points); // every other byte as it was
     // [move]
     std::cout << group.vertices.size() << " of " << points.size() << " vertices moved, " << flipped << " of "
               << mesh.cell_count() << " tetrahedra flipped\n";

@@ -39,8 +39,8 @@ template <class Element, class Points, class Cells>
 mesh<Element> mesh_of_matrices(const Points& V, const Cells& cells, const char* name)
 {
     const auto c = rows_of<Element::corners>(cells, name);
-    if (V.cols() == 2) return mesh_of<Element>(rows_of<2>(V, "V"), c);
-    return mesh_of<Element>(rows_of<3>(V, "V"), c);
+    if (V.cols() == 2) return mesh<Element>(rows_of<2>(V, "V"), c);
+    return mesh<Element>(rows_of<3>(V, "V"), c);
 }
 
 /// Calls add(constraints, vertex, point) with each entry of b and its row of bc.
@@ -48,7 +48,7 @@ template <class Element, class Vertices, class Points, class Add>
 constraints<Element> constraints_of_rows(const mesh<Element>& m, const Vertices& b, const Points& bc, const Add& add)
 {
     const auto vertices = rows_of<1>(b, "b");
-    const auto points = points_of<Element::dimension>(rows_of<Element::dimension>(bc, "bc"));
+    const auto points = rows_of<Element::dimension>(bc, "bc").points();
     if (points.size() != vertices.rows())
         throw parameter_error("bc", "has " + std::to_string(points.size()) + " rows for " +
                                         std::to_string(vertices.rows()) + " vertices in b");
@@ -84,7 +84,7 @@ mesh<tetrahedron> volume_from(const Eigen::DenseBase<Points>& V, const Eigen::De
 template <int D, class Points>
 std::vector<vec<D>> points_from(const Eigen::DenseBase<Points>& X)
 {
-    return points_of<D>(impl::rows_of<D>(X, "X"));
+    return impl::rows_of<D>(X, "X").points();
 }
 
 /// Points as a matrix with one row per point. It maps the memory of x without a copy: assign it to a matrix of your
@@ -97,7 +97,7 @@ std::vector<vec<D>> points_from(const Eigen::DenseBase<Points>& X)
 template <int D>
 Eigen::Map<const impl::packed_rows<double, D>> matrix_of(const std::vector<vec<D>>& x)
 {
-    return {numbers_of<D>(x).data(), static_cast<Eigen::Index>(x.size()), D};
+    return {impl::numbers_of<D>(x).data(), static_cast<Eigen::Index>(x.size()), D};
 }
 template <int D>
 Eigen::Map<impl::packed_rows<double, D>> matrix_of(std::vector<vec<D>>& x)

@@ -139,7 +139,7 @@ void write_model_uv(const std::string& path, const std::string& like, const arra
     auto corners = corners_of(rows, model.triangles.size());
     for (auto& c : corners)
         for (vec2& t : c) t.y = 1 - t.y;
-    io::write_gltf(path, model, corners, set);
+    model.write(path, corners, set);
 }
 
 /// Arrays as a new model.
@@ -150,14 +150,14 @@ void write_new_model(const std::string& path, const array& V, const array& F, co
     auto corners = corners_of(rows, triangles.size());
     for (auto& c : corners)
         for (vec2& t : c) t.y = 1 - t.y;
-    io::write_gltf(path, io::gltf_of(points, triangles), corners);
+    io::gltf_model(points, triangles).write(path, corners);
 }
 
 void write_surface_moved(const std::string& path, const std::string& like, const array& x)
 {
     const auto file = io::read_surface_file(like);
     io::atomic_file out(path);
-    io::write_moved(out, file, places_of(x, "x"));
+    file.write(out, places_of(x, "x"));
     out.commit();
 }
 
@@ -175,7 +175,7 @@ void write_volume_moved(const std::string& path, const std::string& like, const 
     auto points = places_of(x, "x");
     if (x.ndim() == 2 && x.shape(1) == 2)
         for (std::size_t v = 0; v < points.size() && v < file.points.size(); ++v) points[v].z = file.points[v].z;
-    io::write_volume(path, file, points);
+    file.write(path, points);
 }
 
 } // namespace

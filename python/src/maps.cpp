@@ -31,9 +31,8 @@ parameterize_params map_params(const options& given, const mesh<triangle>& m)
                      {"as_solved", placement::as_solved}});
     given.read("no_overlap", params.no_overlap);
     given.read("holes", params.holes);
+    if (given.find("tolerance")) params.solve = {}; // which asks for that, not for what has settled
     read_solver(params, given);
-    // A tolerance or a number of steps asks for that, not for what has settled.
-    if (given.find("tolerance")) params.solve.stopping.settled_tolerance = 0;
     return params;
 }
 

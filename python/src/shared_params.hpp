@@ -21,8 +21,8 @@ void read_solver(Params& params, const options& given)
                      {"fp64", precision::fp64},
                      {"mixed", precision::mixed},
                      {"fp32", precision::fp32}});
-    given.read("tolerance", params.solve.stopping.gradient_tolerance);
-    given.read("iterations", params.solve.stopping.max_iterations);
+    given.read("tolerance", params.solve.gradient_tolerance);
+    given.read("iterations", params.solve.max_iterations);
 }
 
 /// The clock of a call, and who watches.
@@ -52,7 +52,7 @@ void read_energy(Params& params, const options& given)
 {
     if (any_energy energy = params.energy; given.read("energy", energy)) params.energy = energy;
     params.data = data_of(given);
-    if (const auto a = given.rows("parameters")) params.parameters = numbers_of(*a);
+    if (const auto a = given.rows("parameters")) params.energy = params.energy.with_parameters(numbers_of(*a));
     given.read_word("weighting", params.weights,
                     {{"area", energy::weighting::measure},
                      {"volume", energy::weighting::measure},

@@ -128,9 +128,13 @@ nb::object deform_of(const array& V, const nb::list& C, const nb::dict& keywords
     params.constraints = constraints_of(job->simplices(), given);
     params.owners = job->owners();
     if (job->cells.overlapping && params.data.weights.empty()) params.data.weights = job->cells.weights;
-    if (const auto a = given.rows("rest")) params.rest = places_of(*a, "rest");
+    if (const auto a = given.rows("rest")) // the mesh at rest then, which begins as V
+    {
+        params.initial = positions_of(job->simplices());
+        job->cells.simplices = mesh<Element>(places_of(*a, "rest"), job->simplices().cells());
+    }
     if (const auto a = given.rows("initial")) params.initial = points_of<D>(*a, "initial");
-    given.read_word("shapes", params.shapes, {{"rest", target_shapes::rest}, {"regular", target_shapes::regular}});
+    given.read_word("shapes", params.regular, {{"rest", false}, {"regular", true}});
     read_slides(params, given);
     read_solver(params, given);
     job->limits = limits_of(given, watched.shared, "deform");
@@ -165,8 +169,10 @@ nb::object smooth_of(const array& V, const nb::list& C, const nb::dict& keywords
     given.read_word(
         "boundary", params.boundary,
         {{"fixed", smooth_boundary::fixed}, {"sliding", smooth_boundary::sliding}, {"free", smooth_boundary::free}});
-    given.read_word("shapes", params.shapes, {{"rest", target_shapes::rest}, {"regular", target_shapes::regular}});
-    if (const auto a = given.rows("rest")) params.rest = places_of(*a, "rest");
+    bool regular = true;
+    given.read_word("shapes", regular, {{"rest", false}, {"regular", true}});
+    const auto rest = given.rows("rest");
+    if (!regular) params.rest = rest ? places_of(*rest, "rest") : job->simplices().points();
     given.read("worst_exponent", params.worst_exponent);
     if (const auto a = given.rows("fixed")) params.fixed = ids_of(*a);
     params.owners = job->owners();

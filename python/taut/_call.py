@@ -25,8 +25,8 @@ _WHOLE = ("resolution", "max_resolution", "padding", "tiles", "align", "iteratio
 
 #: Arguments by what the library calls them.
 _NAMES = {
-    "stopping.gradient_tolerance": "tolerance",
-    "stopping.max_iterations": "iterations",
+    "gradient_tolerance": "tolerance",
+    "max_iterations": "iterations",
     "data.weights": "weights",
     "data.attributes": "attributes",
     "data.directions": "directions",

@@ -52,6 +52,19 @@ def test_smoothing_betters_shapes_and_keeps_what_is_fixed(bar):
     assert made.report["after"]["worst_mean_ratio"] > made.report["before"]["worst_mean_ratio"]
 
 
+def test_a_shape_goes_back_to_the_one_at_rest(bar):
+    V, C = bar
+    inside = ((V > V.min(0)) & (V < V.max(0))).all(1)
+    bent = V.copy()
+    bent[inside] += np.random.default_rng(1).uniform(-0.2, 0.2, (inside.sum(), 3))
+    rim = np.flatnonzero(~inside)
+    assert np.allclose(taut.deform(bent, C, rim, V[rim], rest=V, tolerance=1e-9).x, V, atol=1e-6)
+    again = taut.smooth(bent, C, boundary="fixed", shapes="rest", rest=V, tolerance=1e-9)
+    assert np.allclose(again.x, V, atol=1e-4)
+    with pytest.raises(taut.ParameterError, match="rest"):
+        taut.deform(bent, C, rim, V[rim], rest=V[1:])
+
+
 def test_untangling_ends_with_a_map_or_a_proof(bar):
     V, C = bar
     edge = ((V == V.min(0)) | (V == V.max(0))).any(1)

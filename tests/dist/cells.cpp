@@ -59,11 +59,11 @@ TEST_CASE("dist cells: hexahedra and wedges find the energy of one process, to t
     deform_params<tetrahedron> serial{.constraints = serial_ends(m, twisted(1.0)), .precision = precision::fp64};
     serial.owners = parts.cells;
     serial.data.weights = parts.weights;
-    serial.solve.stopping.gradient_tolerance = 1e-8;
+    serial.solve.gradient_tolerance = 1e-8;
     const auto one = deform(q, m, serial);
     REQUIRE(one.report.converged);
     dist::deform_params<tetrahedron> how{.constraints = ends(MPI_COMM_WORLD, m, twisted(1.0)), .queue = common_queue()};
-    how.solve.stopping.gradient_tolerance = 1e-8;
+    how.solve.gradient_tolerance = 1e-8;
     const auto found = dist::deform(MPI_COMM_WORLD, part, how);
     CHECK(found.report.converged);
     CHECK(found.report.pins_held);
@@ -71,10 +71,10 @@ TEST_CASE("dist cells: hexahedra and wedges find the energy of one process, to t
     CHECK(dist::check(MPI_COMM_WORLD, part).elements == m.cell_count());
     // Smoothing has the shapes of regular cells as targets, and counts corners alike.
     smooth_params<tetrahedron> by_one{.targets = parts.regular, .owners = parts.cells, .precision = precision::fp64};
-    by_one.solve.stopping.gradient_tolerance = 1e-8;
+    by_one.solve.gradient_tolerance = 1e-8;
     const auto smoothed = smooth(q, m, by_one);
     dist::smooth_params by_all{.queue = common_queue()};
-    by_all.solve.stopping.gradient_tolerance = 1e-8;
+    by_all.solve.gradient_tolerance = 1e-8;
     const auto better = dist::smooth(MPI_COMM_WORLD, part, by_all);
     CHECK(better.report.converged);
     CHECK(better.report.energy == doctest::Approx(smoothed.report.energy).epsilon(1e-10));
@@ -96,7 +96,7 @@ TEST_CASE("dist cells: energies have the same bits on any number of processes")
                 dist::impl::dealt<tetrahedron>(all, first ? &parts.simplices : nullptr, first ? &parts : nullptr);
             dist::deform_params<tetrahedron> how{.constraints = ends(some.get(), parts.simplices, twisted(0.3)),
                                                  .queue = common_queue()};
-            how.solve.stopping.max_iterations = 0;
+            how.solve.max_iterations = 0;
             dist::session<tetrahedron> s(some.get(), part, how);
             auto x = s.body().current();
             for (std::size_t i = 0; i < x.size(); i += 3) x[i] *= 1.25; // strained

@@ -108,16 +108,16 @@ TEST_CASE("dist smooth: interfaces between regions, and lines where labelled fac
     REQUIRE(faces.size() == 2 * n * n);
     queue& q = common_queue();
     const auto one = smooth(q, m,
-                            smooth_params<tetrahedron>{.kept = io::kept_facets(file, true),
+                            smooth_params<tetrahedron>{.kept = file.kept_facets(true),
                                                        .precision = precision::fp64,
-                                                       .solve = {.stopping = {.gradient_tolerance = 1e-8}}});
+                                                       .solve = {.gradient_tolerance = 1e-8}});
     for (int processes = 1; processes <= size_of(); ++processes)
     {
         const first_processes some(processes);
         if (!some) continue;
         const auto p = dealt(some.get(), m);
         dist::smooth_params how{.queue = common_queue()};
-        how.solve.stopping.gradient_tolerance = 1e-8;
+        how.solve.gradient_tolerance = 1e-8;
         for (const auto& c : p.cells)
             how.regions.push_back(1 + (*std::max_element(c.begin(), c.end()) >= slice * (2 * n + 1)));
         if (rank_of(some.get()) == processes - 1) how.faces = faces;

@@ -118,7 +118,7 @@ inline std::string require_promises(const io::surface_file& file)
     require_examinable(file.surface);
     try
     {
-        if (const auto cut = io::cut_seams(file))
+        if (const auto cut = file.cut_seams())
         {
             require(cut->seam_vertices > 0 && cut->origins.size() == cut->uv.size(), "a seam has sheets");
             for (std::size_t c = 0; c < cut->surface.cells().size(); ++c)

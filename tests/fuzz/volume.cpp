@@ -231,7 +231,7 @@ void examine(const io::volume_file& file, const std::function<io::volume_file(co
     attempt([&] { file.corner_simplices(); });
     attempt([&] { file.corner_simplices<triangle>(); });
     attempt([&] { io::impl::check_sides(file); });
-    attempt([&] { io::kept_facets(file, true); });
+    attempt([&] { file.kept_facets(true); });
     attempt([&] { file.find_group("1"); });
 }
 

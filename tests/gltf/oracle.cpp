@@ -85,7 +85,7 @@ void compare(const test::gltf_builder& builder, std::size_t chart, const std::st
     }
     const auto written =
         std::filesystem::temp_directory_path() / ("taut-tinygltf-" + std::to_string(std::random_device{}()) + ".glb");
-    io::write_gltf(written, model, uv);
+    model.write(written, uv);
     const auto before = load(builder.glb(), name), after = load(io::impl::read_file(written), name);
     std::filesystem::remove(written);
     require(before.materials == after.materials && before.nodes == after.nodes && before.skins == after.skins &&

@@ -41,7 +41,7 @@ void write_model(const std::filesystem::path& folder, const std::string& name, c
     const auto model = io::read_gltf(folder / (name + ".in.glb"), set);
     for (const std::size_t size : {std::size_t(1), std::size_t(40)})
         for (const char* const ending : {".glb", ".gltf"})
-            io::write_gltf(folder / (name + '-' + std::to_string(size) + ending), model, charts(model, size), set);
+            model.write(folder / (name + '-' + std::to_string(size) + ending), charts(model, size), set);
 }
 
 } // namespace
@@ -70,10 +70,10 @@ int main(int argc, char** argv)
                              static_cast<idx>(torus.indices[i + 2])});
     triangles.push_back({-1, 0, 1});
     points.emplace_back(7e7, 0, std::nan(""));
-    const auto model = io::gltf_of(points, triangles);
+    const auto model = io::gltf_model(points, triangles);
     for (const std::size_t size : {std::size_t(1), std::size_t(40)})
-        io::write_gltf(folder / ("new-" + std::to_string(size) + ".glb"), model, charts(model, size));
+        model.write(folder / ("new-" + std::to_string(size) + ".glb"), charts(model, size));
     for (vec3& p : points) p = 1e30 * (p + vec3(500000, 5400000, 0)); // a node with a translation and a scale
-    const auto far = io::gltf_of(points, triangles);
-    io::write_gltf(folder / "far-40.glb", far, charts(far, 40), 0, io::gltf_model::numbers::fractions);
+    const auto far = io::gltf_model(points, triangles);
+    far.write(folder / "far-40.glb", charts(far, 40), 0, io::gltf_model::numbers::fractions);
 }

@@ -41,7 +41,7 @@ LONG = {
     "impl/edit/pasted.hpp stitch": "steps of one numbering",
     "impl/exact/vanishing_sum.hpp fit_nonnegative": "Lawson and Hanson's algorithm as printed",
     "impl/gltf/new_gltf.hpp new_gltf_source": "the text of one file, from top to bottom",
-    "impl/io/cell_faces.hpp cell_faces_of": "one case per kind of cell",
+    "impl/io/cell_faces.hpp faces": "one case per kind of cell",
     "impl/io/surface/polygons.hpp split": "one case per number of corners",
     "impl/io/volume/subdivided.ipp plain_subdivided": "one section of the file after another",
     "impl/packing/certificate.hpp certify_outlined": "a sweep with its state as locals",

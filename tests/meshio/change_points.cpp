@@ -55,7 +55,7 @@ try
         points[v] = file.places.per_point == 2 ? vec3(2 * p.x + p.y, p.y - 3 * p.x, 0)
                                                : vec3(2 * p.x + p.y, p.y - 3 * p.z, p.z + 0.5);
     }
-    io::write_volume(argv[2], file, points);
+    file.write(argv[2], points);
     return 0;
 }
 catch (const taut::error& e)

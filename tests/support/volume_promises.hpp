@@ -85,7 +85,7 @@ inline std::string broken_promise(const io::volume_file& file,
         kept[v] = false;
         for (int k = 0; k < file.places.per_point; ++k) points[v][k] = 0.1 * static_cast<double>(v) + 1. / 3 + k;
     }
-    if (!file.places.text) points = io::rounded_to_file(file, points);
+    if (!file.places.text) points = file.rounded(points);
     const auto back = read(io::impl::with_points(file, points));
     if (!std::equal(points.begin(), points.end(), back.points.begin(), back.points.end(), same_point))
         return "the points that were written";

@@ -63,7 +63,7 @@ void keep_freed_memory()
 template <io::gltf_model::numbers Numbers>
 vec2 in_gltf(vec2 x)
 {
-    const vec2 y = io::texcoord_in_gltf({x.x, -x.y}, Numbers);
+    const vec2 y = io::gltf_model::rounded({x.x, -x.y}, Numbers);
     return {y.x, -y.y};
 }
 

@@ -107,7 +107,7 @@ public:
     {
         if (io::is_gltf(path))
         {
-            const auto model = io::gltf_of(file_.points, file_.triangles);
+            const auto model = io::gltf_model(file_.points, file_.triangles);
             changes.insert(changes.end(), model.notes.begin(), model.notes.end());
             return gltf_files(path, model, map, 0, numbers, changes);
         }

@@ -100,7 +100,7 @@ shell_params shell_run::params(const thin_shell& shell, const constraints<hinge>
 {
     thickness_ = options_.thickness.value_or(shell.mean_edge());
     shell_params p{.constraints = pins, .thickness = thickness_};
-    if (options_.tolerance) p.solve.stopping.gradient_tolerance = *options_.tolerance;
+    if (options_.tolerance) p.solve.gradient_tolerance = *options_.tolerance;
     return p;
 }
 
@@ -151,8 +151,7 @@ void shell_run::refuse() const
 
 void shell_run::write(const io::surface_file& file, const mesh<triangle>& rest)
 {
-    std::vector<io::file_to_write> files{
-        {options_.output, [&](io::atomic_file& out) { io::write_moved(out, file, points_); }}};
+    std::vector<io::file_to_write> files{{options_.output, [&](io::atomic_file& out) { file.write(out, points_); }}};
     if (!options_.picture.empty())
         files.push_back({options_.picture, [&](io::atomic_file& out) { out.write(picture(rest)); }});
     command_.write(std::move(files), *this, options_, [&](double total, double) { total_ = total; });

@@ -89,7 +89,7 @@ exit_code evaluate(const eval_options& options)
     auto polygons = file.faces.of_triangles();
     std::vector<idx> kept;
     const auto gone = leave_out_unmapped(file, polygons, kept);
-    const auto cut = io::cut_seams(file);
+    const auto cut = file.cut_seams();
     auto a = cut ? assess(cut->surface, cut->uv) : assess(file.surface, file.vertex_texcoords());
     const auto& surface = cut ? cut->surface : file.surface;
     take_polygons(a, impl::find_convex_polygons(surface.cells(), polygons, surface.points()),

@@ -142,7 +142,7 @@ private:
     {
         const auto set_tolerance = [this](auto& how)
         {
-            if (shape_.tolerance) how.solve.stopping.gradient_tolerance = *shape_.tolerance;
+            if (shape_.tolerance) how.solve.gradient_tolerance = *shape_.tolerance;
         };
         if (shape_.smoothing)
         {

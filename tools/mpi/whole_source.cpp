@@ -110,7 +110,7 @@ public:
         all_.together(
             [&]
             {
-                if (all_.rank() == 0) writing([&] { io::write_volume(path, file_, input_->in_file(shape)); });
+                if (all_.rank() == 0) writing([&] { file_.write(path, input_->in_file(shape)); });
             });
     }
 

@@ -20,9 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include <picture/render_picture.hpp>
-#include <taut/impl/edit/parameterize_feature.hpp>
 #include <taut/impl/edit/surface/surface_tree.hpp>
-#include <taut/impl/edit/tessellate.hpp>
 #include <taut/impl/edit/write_feature_map.hpp>
 #include <taut/impl/edit/write_paste.hpp>
 #include <taut/impl/io/read_surface.hpp>
@@ -139,12 +137,12 @@ private:
     /// The feature's map, and its tessellation if that is asked for.
     void draw_map(queue& q)
     {
-        const auto uv = parameterize_feature(q, *paste_);
+        const auto uv = paste_->parameterize_feature(q);
         if (!uv) throw no_valid_map("the feature has no map with its rim where it meets the target: " + uv.reason());
-        map_ = make_feature_map(q, paste_->part(), uv.uv, options_.texels.value_or(512));
+        map_ = paste_->part().rasterize(q, uv.uv, options_.texels.value_or(512));
         if (options_.triangles == 0) return;
         const auto before = paste_->part().region.surface;
-        paste_->refill(tessellate(q, paste_->part(), *map_, uv.uv, options_.triangles));
+        paste_->refill(paste_->part().tessellate(q, *map_, uv.uv, options_.triangles));
         const auto& after = paste_->part().region.surface;
         note_triangles(after.cell_count());
         distance_ = std::max(largest_distance(before, after), largest_distance(after, before));
@@ -205,10 +203,10 @@ private:
     void write()
     {
         std::vector<io::file_to_write> files{
-            {options_.output, [&](io::atomic_file& file) { io::write_paste(file, *paste_, *target_, *source_); }}};
+            {options_.output, [&](io::atomic_file& file) { paste_->write(file, *target_, *source_); }}};
         if (!options_.map.empty())
             files.push_back({options_.map, [&](io::atomic_file& file)
-                             { file.write(extension(options_.map) == ".png" ? preview() : io::exr_of(*map_)); }});
+                             { file.write(extension(options_.map) == ".png" ? preview() : map_->exr()); }});
         if (!options_.picture.empty())
             files.push_back({options_.picture, [&](io::atomic_file& file) { file.write(picture()); }});
         if (!options_.render.empty())

@@ -55,7 +55,7 @@ std::optional<io::cut_surface> cut_open(const io::surface_file& file, impl::mesh
     std::optional<io::cut_surface> cut;
     try
     {
-        cut = io::cut_seams(file);
+        cut = file.cut_seams();
     }
     catch (const io::texcoord_error&)
     {

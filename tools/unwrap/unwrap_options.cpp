@@ -176,12 +176,12 @@ parameterize_params to_params(const unwrap_options& o)
     p.no_overlap = o.no_overlap;
     p.precision = o.precision;
     p.multigrid = o.solver == solver_kind::multigrid_lbfgs;
+    if (o.tolerance) p.solve = {.gradient_tolerance = *o.tolerance}; // no less strict than that
     p.solve.method = o.solver == solver_kind::newton               ? solve::method::newton
                      : o.solver == solver_kind::conjugate_gradient ? solve::method::conjugate_gradient
                      : o.solver == solver_kind::gradient_descent   ? solve::method::gradient_descent
                                                                    : solve::method::lbfgs;
-    if (o.tolerance) p.solve.stopping = {.gradient_tolerance = *o.tolerance}; // no less strict than that
-    p.solve.stopping.max_iterations = o.iterations;
+    p.solve.max_iterations = o.iterations;
     return p;
 }
 

@@ -60,7 +60,7 @@ struct unwrap_options
     solver_kind solver{};
     taut::precision precision{};
     taut::placement placement{};
-    int iterations = solve::impl::stopping_params{}.max_iterations;
+    int iterations = solve::params{}.max_iterations;
     std::optional<double> tolerance; ///< none: the default, or where the map has settled
     double time_limit = std::numeric_limits<double>::infinity();
     std::optional<vec3> up, front; ///< of the render; guessed if not given

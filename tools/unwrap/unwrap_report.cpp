@@ -35,7 +35,7 @@ std::string describe(const solve::report& r, const unwrap_options& options)
         {
         case stop::gradient:
             return "converged: relative gradient " + number(r.gradient_norm, 2) +
-                   " <= " + number(options.tolerance.value_or(solve::impl::stopping_params{}.gradient_tolerance));
+                   " <= " + number(options.tolerance.value_or(solve::params{}.gradient_tolerance));
         case stop::settled:
             return "converged: negligible decrease over five steps, relative gradient " + number(r.gradient_norm, 2);
         case stop::decrement:

@@ -9,9 +9,7 @@
 #include <vector>
 
 #include <taut/impl/edit/feature_map.hpp>
-#include <taut/impl/edit/parameterize_feature.hpp>
 #include <taut/impl/edit/paste.hpp>
-#include <taut/impl/edit/tessellate.hpp>
 #include <taut/impl/io/read_surface.hpp>
 #include <taut/impl/io/surface/obj_output.hpp>
 
@@ -196,10 +194,10 @@ private:
     /// Remeshes the feature from its map, which the device samples.
     void refill(paste& there) const
     {
-        const auto uv = parameterize_feature(queue_, there);
+        const auto uv = there.parameterize_feature(queue_);
         if (!uv) throw error("the feature has no map with its rim where it meets the target: " + uv.reason());
-        const auto map = make_feature_map(queue_, there.part(), uv.uv);
-        there.refill(tessellate(queue_, there.part(), map, uv.uv, triangles_));
+        const auto map = there.part().rasterize(queue_, uv.uv);
+        there.refill(there.part().tessellate(queue_, map, uv.uv, triangles_));
     }
 
     /// onto: a vertex of the target, or -1.

@@ -161,7 +161,7 @@ struct opened_volume
             list = as_corners(input.simplices().cells());
         else
         {
-            const auto sides = io::cell_faces_of(file);
+            const auto sides = file.faces();
             for (std::size_t f = 0; f < sides.faces.size(); ++f)
                 if (sides.twin[f] < 0)
                 {
@@ -291,7 +291,7 @@ public:
                                                                                  [&](const std::filesystem::path& path)
                                                                                  {
                                                                                      io::atomic_file out(path);
-                                                                                     io::write_moved(out, file, x());
+                                                                                     file.write(out, x());
                                                                                      out.commit();
                                                                                  })};
     }

@@ -109,7 +109,7 @@ void report_open_quads(check_report& report, const io::impl::cell_faces& sides)
 /// Reports the faces between cells of several kinds.
 void report_faces(check_report& report, const io::volume_file& file)
 {
-    if (file.dimension == 3) report_open_quads(report, io::cell_faces_of(file));
+    if (file.dimension == 3) report_open_quads(report, file.faces());
     for (const auto& found : io::impl::check_sides(file)) report_mesh(report, found, true);
 }
 

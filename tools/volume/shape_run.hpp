@@ -114,7 +114,7 @@ private:
     {
         if (options_.free_interfaces) return;
         const auto& file = input_->file();
-        kept_facets_ = io::kept_facets(file, options_.boundary == smooth_boundary::sliding);
+        kept_facets_ = file.kept_facets(options_.boundary == smooth_boundary::sliding);
         std::vector<char> outside(file.points.size(), 0), inside = outside;
         for (const auto& facet : impl::boundary_facets(input_->simplices(), input_->owners()))
             for (const idx v : facet) outside[static_cast<std::size_t>(v)] = 1;
@@ -149,14 +149,14 @@ private:
                                           .worst_exponent = options_.worst_exponent,
                                           .fixed = fixed_,
                                           .kept = kept_facets_};
-            if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
+            if (options_.tolerance) params.solve.gradient_tolerance = *options_.tolerance;
             auto r = smooth(q, m, params, limits());
             return {std::move(r.x), std::move(r.report)};
         }
         deform_params<Element> params{
             .energy = energy_of(options_.energy), .constraints = pins_, .owners = parts.owners(), .initial = from};
         if (parts.parts().overlapping) params.data.weights = parts.parts().weights;
-        if (options_.tolerance) params.solve.stopping.gradient_tolerance = *options_.tolerance;
+        if (options_.tolerance) params.solve.gradient_tolerance = *options_.tolerance;
         if (options_.refine) return deform_split(q, parts, params);
         return deform(q, parts.simplices(), params, limits());
     }

@@ -85,7 +85,7 @@ public:
     /// The map that readers of the file will have.
     map as_written(std::span<const vec<D>> x) const
     {
-        const auto kept = io::rounded_to_file(file_, in_file(x));
+        const auto kept = file_.rounded(in_file(x));
         return {kept.begin(), kept.end()};
     }
 

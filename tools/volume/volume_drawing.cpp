@@ -69,7 +69,7 @@ std::string draw_volumes(const io::volume_file& file, const std::vector<drawn_st
                                             : states.front().points;
     const auto cut = parse_cut(options.cut, places);
     const auto kept = kept_cells(file, places, cut);
-    const auto sides = io::cell_faces_of(file);
+    const auto sides = file.faces();
     const auto is_kept = [&](std::size_t side) { return kept[static_cast<std::size_t>(sides.faces[side].cell)] != 0; };
     std::vector<std::size_t> seen;
     for (std::size_t s = 0; s < sides.faces.size(); ++s)

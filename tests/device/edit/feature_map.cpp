@@ -7,9 +7,8 @@
 
 #include <support/edit_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/paste.hpp>
 #include <taut/impl/edit/surface/surface_tree.hpp>
-#include <taut/impl/edit/tessellate.hpp>
 #include <taut/impl/edit/write_feature_map.hpp>
 #include <taut/impl/mesh/validate.hpp>
 
@@ -24,7 +23,7 @@ struct mapped_mushroom
 {
     queue q;
     paste pasted{q, test::sphere(4), feature(geodesic_disk(test::mushroom(24), 0, 2.2)), 4, {.pose = {.scale = 0.4}}};
-    map_result map = parameterize_feature(q, pasted);
+    map_result map = pasted.parameterize_feature(q);
 };
 
 /// The weights of the corners of the triangle at p, in the plane.
@@ -79,7 +78,7 @@ TEST_CASE("parameterize feature: the rim bit for bit at its correspondences, not
     for (std::size_t i = 0; i < region.rim.size(); ++i)
         CHECK(m.map.uv[std::size_t(region.rim[i])] == m.pasted.rim_uv()[i]);
     const auto outside = 100.0 * m.pasted.rim_uv()[0];
-    const auto refused = parameterize_feature(m.q, m.pasted, std::vector<feature_pin>{{0, outside}});
+    const auto refused = m.pasted.parameterize_feature(m.q, std::vector<feature_pin>{{0, outside}});
     CHECK(refused.report.outcome == outcome::infeasible);
     CHECK_FALSE(refused.report.ids.empty());
 }
@@ -89,12 +88,12 @@ TEST_CASE("feature map: the device draws what the host says, without holes or bl
     mapped_mushroom m;
     REQUIRE(m.map);
     const auto& part = m.pasted.part();
-    const auto map = make_feature_map(m.q, part, m.map.uv, 128);
+    const auto map = part.rasterize(m.q, m.map.uv, 128);
     CHECK(std::max(map.width, map.height) <= 130);
     CHECK(covered_as_on_host(map, part, m.map.uv) > 5000);
     CHECK(map.round_trip_rms < map.footprint);
     CHECK(map.round_trip < 8 * map.footprint);
-    const auto finer = make_feature_map(m.q, part, m.map.uv, 512);
+    const auto finer = part.rasterize(m.q, m.map.uv, 512);
     CHECK(finer.round_trip_rms < 0.5 * map.round_trip_rms);
 
     // Sampling: host and device, also beyond the rim, where the map is continued.
@@ -104,8 +103,8 @@ TEST_CASE("feature map: the device draws what the host says, without holes or bl
     const auto sampled = sample(m.q, map, points);
     for (std::size_t n = 0; n < points.size(); ++n) CHECK(glm::distance(sampled[n], map(points[n])) < 1e-4);
 
-    CHECK_THROWS_AS(make_feature_map(m.q, part, points), parameter_error);
-    CHECK_THROWS_AS(make_feature_map(m.q, part, m.map.uv, 4), parameter_error);
+    CHECK_THROWS_AS(part.rasterize(m.q, points), parameter_error);
+    CHECK_THROWS_AS(part.rasterize(m.q, m.map.uv, 4), parameter_error);
 }
 
 TEST_CASE("feature map: of a part that is seen from above, drawn and sampled")
@@ -114,7 +113,7 @@ TEST_CASE("feature map: of a part that is seen from above, drawn and sampled")
     const feature part(geodesic_disk(test::bumpy(8, 0.3), 40, 0.4));
     std::vector<vec2> uv;
     for (const vec3& p : part.region.surface.points()) uv.emplace_back(p.x, p.y);
-    const auto map = make_feature_map(q, part, uv, 24);
+    const auto map = part.rasterize(q, uv, 24);
     CHECK(covered_as_on_host(map, part, uv) > 100);
     const auto sampled = sample(q, map, uv);
     for (std::size_t n = 0; n < uv.size(); ++n) CHECK(glm::distance(sampled[n], map(uv[n])) < 1e-4);
@@ -125,11 +124,11 @@ TEST_CASE("tessellate: a feature of about as many triangles as wanted, on the ma
     mapped_mushroom m;
     REQUIRE(m.map);
     const auto& part = m.pasted.part();
-    const auto map = make_feature_map(m.q, part, m.map.uv, 128);
+    const auto map = part.rasterize(m.q, m.map.uv, 128);
     double before = 1e9;
     for (const int wanted : {600, 2400, 9600})
     {
-        const auto made = tessellate(m.q, part, map, m.map.uv, wanted);
+        const auto made = part.tessellate(m.q, map, m.map.uv, wanted);
         CHECK(check(made.region.surface).empty());
         CHECK(made.region.surface.cell_count() < 1.2 * wanted);
         CHECK(made.region.surface.cell_count() > 0.5 * wanted);
@@ -152,8 +151,8 @@ TEST_CASE("feature map: files")
 {
     mapped_mushroom m;
     REQUIRE(m.map);
-    const auto map = make_feature_map(m.q, m.pasted.part(), m.map.uv, 64);
-    const std::string exr = io::exr_of(map);
+    const auto map = m.pasted.part().rasterize(m.q, m.map.uv, 64);
+    const std::string exr = map.exr();
     const auto texels = std::size_t(map.width * map.height);
     CHECK(exr.substr(0, 8) == std::string("\x76\x2f\x31\x01\x02\0\0\0", 8));
     CHECK(exr.size() > 16 * texels);

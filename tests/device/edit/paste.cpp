@@ -249,7 +249,7 @@ TEST_CASE("paste: the file has the texture coordinates of both surfaces")
     const auto target = with_texcoords(test::sphere(3)), source = with_texcoords(test::mushroom(12));
     const paste p(q, target.surface, feature(geodesic_disk(source.surface, 0, 2.2)), 4, {.pose = {.scale = 0.4}});
     io::atomic_file out(folder / "pasted.obj");
-    io::write_paste(out, p, target, source);
+    p.write(out, target, source);
     out.commit();
     const auto read = io::read_surface_file(folder / "pasted.obj");
     CHECK(read.surface.points() == p.points());

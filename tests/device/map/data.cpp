@@ -101,7 +101,7 @@ TEST_CASE("data: where weights are painted high, the map is less distorted, with
     queue q;
     for (const auto method : {solve::method::automatic, solve::method::lbfgs})
     {
-        const solve::params some{.method = method, .stopping = {.max_iterations = 300}};
+        const solve::params some{.method = method, .max_iterations = 300};
         const auto plain = parameterize(q, m, {.solve = some});
         const auto left = parameterize(q, m, {.data = {.weights = painted(m, 50, 1)}, .solve = some});
         REQUIRE(plain);
@@ -141,7 +141,7 @@ TEST_CASE("data: an energy reads attributes of its triangle, on the device as on
     // An even attribute is a constant of the energy.
     const cell_data even{.attribute_count = 1, .attributes = std::vector<double>(m.cells().size(), 1.0)};
     const auto one = parameterize(q, m, {.energy = mixed{}, .data = even});
-    const auto sum_of_both = parameterize(q, m, {.energy = slid{}, .parameters = {1.0}});
+    const auto sum_of_both = parameterize(q, m, {.energy = {slid{}, {1.0}}});
     CHECK(one.report.solve.value == doctest::Approx(sum_of_both.report.solve.value).epsilon(1e-9));
 }
 
@@ -149,13 +149,13 @@ TEST_CASE("data: another parameter takes no other kernel")
 {
     const auto m = rough_hill();
     queue q;
-    const auto first = parameterize(q, m, {.energy = slid{}, .parameters = {0.5}});
+    const auto first = parameterize(q, m, {.energy = {slid{}, {0.5}}});
     REQUIRE(first);
     const auto builds = q.counters().builds;
     double before = first.report.solve.value;
     for (const double p : {1.0, 2.0, 4.0})
     {
-        const auto next = parameterize(q, m, {.energy = slid{}, .parameters = {p}});
+        const auto next = parameterize(q, m, {.energy = {slid{}, {p}}});
         REQUIRE(next);
         CHECK(next.report.solve.value > before); // area costs more
         before = next.report.solve.value;

@@ -155,11 +155,10 @@ TEST_CASE("drawn start: a map that has settled is within a thousandth of where s
     b.turn(test::sized(60, 10), 0.5, true, 3);
     const auto settled = parameterize(b.q, b.m, {.constraints = b.pins});
     b.check(settled);
-    const auto strict =
-        parameterize(b.q, b.m, {.constraints = b.pins, .solve = {.stopping = {.max_iterations = 1000}}});
+    const auto strict = parameterize(b.q, b.m, {.constraints = b.pins, .solve = {.max_iterations = 1000}});
     b.check(strict);
     const auto &s = settled.report.solve, &t = strict.report.solve;
-    CHECK(parameterize_params{}.solve.stopping.settled_tolerance > 0);
+    CHECK(parameterize_params{}.solve.tuning.stopping.settled_tolerance > 0);
     CHECK((s.stop == solve::stop::settled || s.iterations == t.iterations));
     CHECK((t.stop == solve::stop::gradient || t.stop == solve::stop::decrement));
     CHECK(s.iterations <= t.iterations);

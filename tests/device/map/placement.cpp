@@ -101,7 +101,7 @@ std::pair<vec2, vec2> box(const std::vector<vec2>& uv)
 
 std::vector<vec2> free_map(queue& q, const mesh<triangle>& m, parameterize_params p = {})
 {
-    p.solve.stopping.gradient_tolerance = 1e-8;
+    p.solve.gradient_tolerance = 1e-8;
     const auto r = parameterize(q, m, p);
     REQUIRE(r);
     CHECK(certify<2>(m.cells(), r.uv).flipped == 0);

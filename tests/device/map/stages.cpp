@@ -117,8 +117,7 @@ TEST_CASE("stages: a barrier that cuts steps names the vertices of the elements 
     queue q;
     const auto m = test::rings(8, [](double r, double angle)
                                { return vec3(r * std::cos(angle), r * std::sin(angle), 20 * r * r); });
-    const auto r =
-        parameterize(q, m, {.start = start_method::barycentric, .solve = {.stopping = {.max_iterations = 1}}});
+    const auto r = parameterize(q, m, {.start = start_method::barycentric, .solve = {.max_iterations = 1}});
     REQUIRE(r);
     const auto& stages = r.report.stages;
     const auto last = std::find_if(stages.rbegin(), stages.rend(), [](const auto& s) { return s.stage == "minimise"; });

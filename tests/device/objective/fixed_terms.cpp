@@ -145,7 +145,7 @@ TEST_CASE("held: Newton's method ends where it does with the same vertices pinne
         auto x = f.make_point();
         f.upload(levels.order().vertices.apply(start), x);
         solve::params how;
-        how.stopping.gradient_tolerance = 1e-9;
+        how.gradient_tolerance = 1e-9;
         auto report = solve::minimize(f, x, how);
         CHECK(report.stop == solve::stop::gradient);
         return std::pair(std::move(report), levels.order().vertices.undo(f.download(x)));

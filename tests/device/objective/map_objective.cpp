@@ -144,7 +144,7 @@ TEST_CASE("map objective: pinned vertices have no gradient, so they never move")
     map_objective<triangle> f(s.q, s.local, energy::isometric{}, energy::weighting::measure);
     auto x = f.make_point();
     f.upload(s.start, x);
-    solve::minimize(f, x, {.stopping = {.max_iterations = 5}});
+    solve::minimize(f, x, {.max_iterations = 5});
     const auto moved = f.download(x);
     std::size_t still = 0;
     for (std::size_t v = 0; v < moved.size(); ++v)
@@ -246,9 +246,8 @@ TEST_CASE("map objective: the device and the host model give the same iterates t
             double value_gradient(const point& x, vector& g) { return f.value_gradient(x, g); }
         } device{f};
         // Brent's method would find the same minimum along a line only to half the digits.
-        const solve::params params{.method = method,
-                                   .line_search = solve::line_search_method::strong_wolfe,
-                                   .stopping = {.max_iterations = 8}};
+        const solve::params params{
+            .method = method, .line_search = solve::line_search_method::strong_wolfe, .max_iterations = 8};
         auto x = f.make_point();
         f.upload(s.start, x);
         const auto on_device = solve::minimize(device, x, params);

@@ -292,8 +292,8 @@ TEST_CASE_TEMPLATE("newton objective: few waits an iteration, and the minimum th
     map_objective<triangle> g(s.q, s.levels.make_layout(0), energy::isometric{}, energy::weighting::measure);
     auto y = g.make_point();
     g.upload(s.start, y);
-    const auto plain = solve::minimize(
-        g, y, {.method = solve::method::lbfgs, .stopping = {.gradient_tolerance = 1e-9, .max_iterations = 5000}});
+    const auto plain =
+        solve::minimize(g, y, {.method = solve::method::lbfgs, .gradient_tolerance = 1e-9, .max_iterations = 5000});
     CHECK(r.value == doctest::Approx(plain.value).epsilon(1e-6));
     CHECK(r.value >= plain.value * (1 - 1e-7));
 }

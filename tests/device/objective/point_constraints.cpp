@@ -156,7 +156,7 @@ TEST_CASE("point constraints: Newton's method converges, held coordinates stay a
     auto x = f.make_point();
     f.upload(s.start, x);
     solve::params how;
-    how.stopping.gradient_tolerance = 1e-8;
+    how.gradient_tolerance = 1e-8;
     const auto report = solve::minimize(f, x, how);
     CHECK(report.stop == solve::stop::gradient);
     CHECK(report.iterations < 60);

@@ -69,7 +69,7 @@ struct sliding_cube
         auto x = f.make_point();
         f.upload(numbers.apply(points), x);
         solve::params how;
-        how.stopping.gradient_tolerance = 1e-9;
+        how.gradient_tolerance = 1e-9;
         how.method = solve::method::newton;
         const auto report = solve::minimize(f, x, how);
         return {numbers.undo(f.download(x)), report};

@@ -151,11 +151,11 @@ TEST_CASE("tetrahedra: Newton's method and L-BFGS come to one minimum, without a
         auto x = f.make_point(), y = f.make_point();
         f.upload(s.start, x);
         f.upload(s.start, y);
-        const auto newton = solve::minimize(f, x, {.stopping = {.gradient_tolerance = 1e-8}});
+        const auto newton = solve::minimize(f, x, {.gradient_tolerance = 1e-8});
         CHECK(newton.stop == solve::stop::gradient);
         CHECK(newton.iterations <= 25);
         map_objective<tetrahedron> g(s.q, s.local, energy, energy::weighting::measure);
-        const auto lbfgs = solve::minimize(g, y, {.stopping = {.gradient_tolerance = 1e-7}});
+        const auto lbfgs = solve::minimize(g, y, {.gradient_tolerance = 1e-7});
         CHECK(lbfgs.stop == solve::stop::gradient);
         CHECK(newton.value == doctest::Approx(lbfgs.value).epsilon(1e-9));
         CHECK(newton.value < newton.value_start);
@@ -172,7 +172,7 @@ TEST_CASE("tetrahedra: Newton's method in mixed precision, from far away")
     auto f = s.newton(energy::isometric{}, types_of(precision::mixed));
     auto x = f.make_point();
     f.upload(s.start, x);
-    const auto r = solve::minimize(f, x, {.stopping = {.gradient_tolerance = 1e-4}});
+    const auto r = solve::minimize(f, x, {.gradient_tolerance = 1e-4});
     CHECK(r.stop == solve::stop::gradient);
     CHECK(certify<3>(s.volume.cells(), std::span<const vec3>(f.download(x))));
 }

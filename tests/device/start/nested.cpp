@@ -38,8 +38,7 @@ mesh<triangle> with_hole(int n)
 
 map_result long_lbfgs(queue& q, const mesh<triangle>& m, parameterize_params p)
 {
-    p.solve.method = solve::method::lbfgs;
-    p.solve.stopping = {.gradient_tolerance = 1e-7, .max_iterations = 20000};
+    p.solve = {.method = solve::method::lbfgs, .gradient_tolerance = 1e-7, .max_iterations = 20000};
     p.precision = precision::fp64;
     return parameterize(q, m, p);
 }
@@ -190,12 +189,12 @@ TEST_CASE("nested: a fixed boundary is the same outline on every path, and stays
         const auto r = parameterize(q, m, p);
         check_converged(m, r);
         p.precision = precision::fp64;
-        p.solve.stopping.max_iterations = 0;
+        p.solve.max_iterations = 0;
         const auto none = parameterize(q, m, p);
         REQUIRE(none);
         CHECK(outline(m, none) == outline(m, r));
 
-        p.solve.stopping.max_iterations = 1000;
+        p.solve.max_iterations = 1000;
         p.start = start_method::barycentric;
         const auto direct = parameterize(q, m, p);
         check_converged(m, direct);
@@ -264,8 +263,7 @@ TEST_CASE("nested: preconditioned BFGS and conjugate gradients converge, in fewe
     for (const auto method : {solve::method::lbfgs, solve::method::conjugate_gradient})
     {
         CAPTURE(static_cast<int>(method));
-        parameterize_params p{.precision = precision::fp64,
-                              .solve = {.method = method, .stopping = {.max_iterations = 5000}}};
+        parameterize_params p{.precision = precision::fp64, .solve = {.method = method, .max_iterations = 5000}};
         const auto plain = parameterize(q, m, p);
         p.multigrid = true;
         // From the plain barycentric map the Hessian of the start would not serve for long.
@@ -322,7 +320,7 @@ TEST_CASE("nested: a tube 20 times as long as wide converges by default")
     const auto r = parameterize(q, m);
     check_converged(m, r);
     // However it ended, a tighter tolerance gains nothing to speak of.
-    const auto tighter = parameterize(q, m, {.solve = {.stopping = {.gradient_tolerance = 1e-9}}});
+    const auto tighter = parameterize(q, m, {.solve = {.gradient_tolerance = 1e-9}});
     const bool settled = r.report.solve.stop == solve::stop::settled;
     CHECK(r.report.solve.value <= tighter.report.solve.value * (1 + (settled ? 1e-4 : 1e-7)));
 }
@@ -337,7 +335,7 @@ TEST_CASE("nested: the longest tubes get a certified map of moderate distortion 
         const auto& m = tube.first;
         CAPTURE(m.cells().size());
         // Their many minima lie in long flat valleys; not every path to one ends within the iterations.
-        const auto r = parameterize(q, m, {.solve = {.stopping = {.max_iterations = 40}}});
+        const auto r = parameterize(q, m, {.solve = {.max_iterations = 40}});
         REQUIRE(r);
         CHECK(certify<2>(m.cells(), r.uv).flipped == 0);
         CHECK(r.report.solve.value < tube.second);

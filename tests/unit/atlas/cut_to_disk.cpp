@@ -33,6 +33,8 @@ double check_disks(const mesh<triangle>& m, idx components = 1)
     const auto f = facets(m);
     const auto seam = cut_to_disk(m, f);
     const auto charts = cut_charts(m, f, seam);
+    CHECK(cut_to_disk(m) == seam);
+    CHECK(cut_charts(m, seam).surface.cells() == charts.surface.cells());
     REQUIRE(charts.charts() == components);
     for (idx k = 0; k < components; ++k)
     {

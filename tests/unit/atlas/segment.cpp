@@ -237,7 +237,7 @@ TEST_CASE("segment: who stops it at once gets pieces without maps")
         flattened += charts.charts();
         return test::flatten_on_host(charts);
     };
-    const auto result = segment(m, facets(m), flatten, {}, {.observer = [](const progress&) { return false; }});
+    const auto result = segment(m, flatten, {}, {.observer = [](const progress&) { return false; }});
     CHECK(flattened == 0);
     CHECK(result.report.unmapped == result.charts.charts());
     CHECK(test::check_flattenable(m, facets(m), result.seam) == result.charts.charts());

@@ -109,7 +109,7 @@ TEST_CASE("symmetry: who has no image is named")
     const mesh<triangle> moved(std::move(points), m.cells());
     try
     {
-        find_symmetry(moved, facets(moved));
+        find_symmetry(moved);
         FAIL("it has none");
     }
     catch (const symmetry_error& e)

@@ -115,7 +115,7 @@ std::size_t require_kept(const io::gltf_model& before, const uv_list& uv, const 
         {
             REQUIRE(after.texcoord_cells[t][k] >= 0);
             CHECK(after.texcoords[static_cast<std::size_t>(after.texcoord_cells[t][k])] ==
-                  io::texcoord_in_gltf(uv[t][k]));
+                  io::gltf_model::rounded(uv[t][k]));
         }
     return added;
 }
@@ -127,7 +127,7 @@ std::size_t vertices_wanted(const io::gltf_model& model, const uv_list& uv)
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
         {
-            const vec2 x = io::texcoord_in_gltf(uv[t][k]);
+            const vec2 x = io::gltf_model::rounded(uv[t][k]);
             seen[model.vertices[t][k]].emplace(x.x, x.y);
         }
     std::size_t n = 0;
@@ -153,11 +153,11 @@ void round_trip(const gltf_builder& builder, int set = 0)
                 const auto model = io::read_gltf(folder / in, set);
                 const auto uv = chart_uv(model, size);
                 std::filesystem::remove(folder / "out.bin"); // of another form
-                io::write_gltf(folder / out, model, uv, set);
+                model.write(folder / out, uv, set);
                 const auto back = io::read_gltf(folder / out, set);
                 CHECK(require_kept(model, uv, back, set) == vertices_wanted(model, uv));
                 // Written again, all is in place.
-                io::write_gltf(folder / "again.glb", back, uv, set);
+                back.write(folder / "again.glb", uv, set);
                 const auto again = io::read_gltf(folder / "again.glb", set);
                 CHECK(require_kept(back, uv, again, set) == 0);
                 CHECK(again.source.document["bufferViews"].size() == back.source.document["bufferViews"].size());
@@ -179,9 +179,9 @@ TEST_CASE("gltf: the program of the document")
         for (std::size_t k = 0; k < 3; ++k)
         {
             const vec3& p = model.points[static_cast<std::size_t>(model.triangles[t][k])];
-            uv[t][k] = io::texcoord_in_gltf({0.5 + 0.1 * p.x, 0.5 - 0.1 * p.y}); // what the file will hold
+            uv[t][k] = io::gltf_model::rounded({0.5 + 0.1 * p.x, 0.5 - 0.1 * p.y}); // what the file will hold
         }
-    io::write_gltf(out, model, uv);
+    model.write(out, uv);
     // [model]
     CHECK(require_kept(model, uv, io::read_gltf(out), 0) == 0);
 }
@@ -236,7 +236,7 @@ TEST_CASE("gltf: bytes of images, skins and animations are the same, and no data
     const auto skinned = test::skinned_model(12);
     const auto model = io::impl::parse_gltf(skinned.glb());
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, chart_uv(model, 3));
+    model.write(folder / "out.glb", chart_uv(model, 3));
     const auto back = io::read_gltf(folder / "out.glb");
     for (const std::size_t a : {6u, 7u, 8u}) // times, turns, matrices
         CHECK(io::impl::all_elements(model.source, io::impl::accessor_of(model.source, a), "") ==
@@ -250,7 +250,7 @@ TEST_CASE("gltf: bytes of images, skins and animations are the same, and no data
     CHECK(back.source.buffers[0].size() <= needed + 8);
 
     const auto textured = io::impl::parse_gltf(test::textured_model(20).glb());
-    io::write_gltf(folder / "out.glb", textured, chart_uv(textured, 3));
+    textured.write(folder / "out.glb", chart_uv(textured, 3));
     const auto now = io::read_gltf(folder / "out.glb");
     const auto image = [](const io::impl::gltf_source& s)
     { return std::string(io::impl::view_bytes(s, s.document["images"][0]["bufferView"].get<std::size_t>())); };
@@ -264,7 +264,7 @@ TEST_CASE("gltf: indices grow wider where new vertices need it, and only there")
     {
         const auto model = io::impl::parse_gltf(test::morphing_model(n).glb());
         const test::temporary_folder folder;
-        io::write_gltf(folder / "out.glb", model, chart_uv(model, chart));
+        model.write(folder / "out.glb", chart_uv(model, chart));
         const auto back = io::read_gltf(folder / "out.glb");
         const auto p = io::impl::primitives_of(back.source).all[0];
         return io::impl::accessor_of(back.source, *p.indices).component;
@@ -284,7 +284,7 @@ TEST_CASE("gltf: the largest number of a type is no index, as it would end a str
         auto uv = chart_uv(model, 1000000);
         for (std::size_t t = 0; t < added; ++t) uv[t][0] = {static_cast<double>(t), 7};
         const test::temporary_folder folder;
-        io::write_gltf(folder / "out.glb", model, uv);
+        model.write(folder / "out.glb", uv);
         const auto back = io::read_gltf(folder / "out.glb");
         const auto p = io::impl::primitives_of(back.source).all[0];
         CHECK(p.vertices == 225 + added);
@@ -303,14 +303,14 @@ TEST_CASE("gltf: what is read back is what was said")
     for (auto& corners : uv)
         for (vec2& x : corners) x = {number(random), number(random) < 0.1 ? 1e-12 * number(random) : number(random)};
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, uv);
+    model.write(folder / "out.glb", uv);
     const auto back = io::read_gltf(folder / "out.glb");
     CHECK(require_kept(model, uv, back, 0) == vertices_wanted(model, uv));
     for (const auto& corners : uv)
         for (const vec2& x : corners)
         {
-            const vec2 y = io::texcoord_in_gltf(x);
-            CHECK(io::texcoord_in_gltf(y) == y);
+            const vec2 y = io::gltf_model::rounded(x);
+            CHECK(io::gltf_model::rounded(y) == y);
             CHECK(std::abs(x.y - y.y) <= 0x1p-24 * x.y);
         }
     // The numbers in the file.
@@ -318,7 +318,7 @@ TEST_CASE("gltf: what is read back is what was said")
     const auto a = io::impl::accessor_of(back.source, *p.attribute("TEXCOORD_0"));
     const auto bytes = io::impl::all_elements(back.source, a, "");
     const auto v = io::impl::drawn_vertices(back.source, p)[0];
-    CHECK(io::impl::load_number(bytes, a, 2 * v + 1) == io::texcoord_in_gltf(uv[0][0]).y);
+    CHECK(io::impl::load_number(bytes, a, 2 * v + 1) == io::gltf_model::rounded(uv[0][0]).y);
 }
 
 TEST_CASE("gltf: triangles without texture coordinates lie in one point, and take none of their neighbours along")
@@ -331,7 +331,7 @@ TEST_CASE("gltf: triangles without texture coordinates lie in one point, and tak
     uv[7][2].y = std::numeric_limits<double>::infinity();
     wanted[3] = wanted[7] = {vec2(0), vec2(0), vec2(0)};
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, uv);
+    model.write(folder / "out.glb", uv);
     CHECK(require_kept(model, wanted, io::read_gltf(folder / "out.glb"), 0) == vertices_wanted(model, wanted));
 }
 
@@ -343,7 +343,7 @@ TEST_CASE("gltf: fractions of unsigned shorts come back as they were")
     uv[0][1] = {0, 1};
     uv[0][2] = {13 / 255.0, 2}; // of bytes; beyond the square
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, uv, 0, io::gltf_model::numbers::fractions);
+    model.write(folder / "out.glb", uv, 0, io::gltf_model::numbers::fractions);
     const auto back = io::read_gltf(folder / "out.glb");
     const auto at = [&](std::size_t k) { return back.texcoords[static_cast<std::size_t>(back.texcoord_cells[0][k])]; };
     CHECK(at(0) == uv[0][0]);
@@ -352,12 +352,12 @@ TEST_CASE("gltf: fractions of unsigned shorts come back as they were")
     for (std::size_t t = 0; t < uv.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(back.texcoords[static_cast<std::size_t>(back.texcoord_cells[t][k])] ==
-                  io::texcoord_in_gltf(uv[t][k], io::gltf_model::numbers::fractions));
+                  io::gltf_model::rounded(uv[t][k], io::gltf_model::numbers::fractions));
     const auto a =
         back.source.document["accessors"][*io::impl::primitives_of(back.source).all[0].attribute("TEXCOORD_0")];
     CHECK(a["componentType"] == 5123);
     CHECK(a["normalized"] == true);
-    io::write_gltf(folder / "floats.glb", back, uv); // and back to floats
+    back.write(folder / "floats.glb", uv); // and back to floats
     CHECK(require_kept(back, uv, io::read_gltf(folder / "floats.glb"), 0) == 0);
 }
 
@@ -379,7 +379,7 @@ TEST_CASE("gltf: a vertex of ten thousand texture coordinates becomes ten thousa
     const auto model = io::impl::parse_gltf(b.glb());
     const auto uv = chart_uv(model, 1);
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, uv);
+    model.write(folder / "out.glb", uv);
     CHECK(require_kept(model, uv, io::read_gltf(folder / "out.glb"), 0) == n - 1);
 }
 
@@ -390,7 +390,7 @@ TEST_CASE("gltf: members keep their order and are found, however many there are"
     for (int i = 0; i < 3000; ++i) extras["key " + std::to_string(i * 7919 % 3001)] = i;
     const auto model = io::impl::parse_gltf(builder.glb());
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, chart_uv(model, 1));
+    model.write(folder / "out.glb", chart_uv(model, 1));
     const auto back = io::read_gltf(folder / "out.glb");
     CHECK(back.source.document["extras"].dump() == extras.dump());
     CHECK(back.source.document["extras"] == extras);
@@ -415,7 +415,7 @@ TEST_CASE("gltf: further chunks of GLB are kept behind the binary one, and count
     const auto model = io::impl::parse_gltf(io::impl::join_glb(builder.gltf(""), builder.bytes, more, "a test"));
     CHECK(model.source.more_chunks == more);
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, chart_uv(model, 3));
+    model.write(folder / "out.glb", chart_uv(model, 3));
     const std::string bytes = io::impl::read_file(folder / "out.glb");
     CHECK(io::impl::load_u32(bytes, 8) == bytes.size());
     CHECK(bytes.ends_with(more[0] + more[1]));
@@ -448,7 +448,7 @@ TEST_CASE("gltf: a primitive without attributes has no vertices and is left as i
     CHECK(model.notes.back() == "1 primitive without triangles was left as it is");
     const auto uv = chart_uv(model, 2);
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, uv);
+    model.write(folder / "out.glb", uv);
     const auto back = io::read_gltf(folder / "out.glb");
     CHECK(require_kept(model, uv, back, 0) == vertices_wanted(model, uv));
     CHECK(back.source.document["meshes"][0]["primitives"][1] == builder.document["meshes"][0]["primitives"][1]);
@@ -477,7 +477,7 @@ TEST_CASE("gltf: strips, fans, copies, and lines on the same vertices keep what 
 
     const test::temporary_folder folder;
     const auto uv = chart_uv(model, 1);
-    io::write_gltf(folder / "out.glb", model, uv);
+    model.write(folder / "out.glb", uv);
     const auto back = io::read_gltf(folder / "out.glb");
     CHECK(back.points == model.points);
     CHECK(back.triangles == model.triangles);
@@ -491,7 +491,7 @@ TEST_CASE("gltf: strips, fans, copies, and lines on the same vertices keep what 
     CHECK(now.all[2].vertices > torus.vertices);
 
     // With one chart nothing is split, and strips stay.
-    io::write_gltf(folder / "out.glb", model, chart_uv(model, 1000));
+    model.write(folder / "out.glb", chart_uv(model, 1000));
     CHECK(io::impl::primitives_of(io::read_gltf(folder / "out.glb").source).all[0].mode == 5);
 }
 
@@ -553,7 +553,7 @@ TEST_CASE("gltf: several meshes and buffers become one buffer; accessors that ot
     CHECK(model.points.size() == 72); // of different meshes, also where they touch
     const test::temporary_folder folder;
     const auto uv = chart_uv(model, 5);
-    io::write_gltf(folder / "out.gltf", model, uv);
+    model.write(folder / "out.gltf", uv);
     CHECK(folder.entries() == 1);
     const auto back = io::read_gltf(folder / "out.gltf");
     CHECK(back.source.buffers.size() == 1);
@@ -578,7 +578,7 @@ TEST_CASE("gltf: bytes that two bufferViews name stay for the one that needs no 
     for (std::size_t t = 0; t < uv.size(); ++t)
         if (model.meshes[t] == 1) uv[t] = whole[t];
     const test::temporary_folder folder;
-    io::write_gltf(folder / "out.glb", model, uv);
+    model.write(folder / "out.glb", uv);
     const auto back = io::read_gltf(folder / "out.glb");
     CHECK(require_kept(model, uv, back, 0) == vertices_wanted(model, uv));
     CHECK(io::impl::view_bytes(back.source, 3) == io::impl::view_bytes(model.source, 3));
@@ -598,7 +598,7 @@ TEST_CASE("gltf: names of images are those from the folder of the new file; othe
     const auto model = io::read_gltf(folder / "in put/a.glb");
     const auto images = [&](const char* name)
     {
-        io::write_gltf(folder / name, model, chart_uv(model, 1));
+        model.write(folder / name, chart_uv(model, 1));
         return io::read_gltf(folder / name).source.document["images"];
     };
     CHECK(images("in put/b.gltf") == builder.document["images"]);
@@ -620,15 +620,14 @@ TEST_CASE("gltf: a file beside a document is replaced only as its buffer")
     const auto refuses = [&](const char* name)
     {
         const auto before = folder.entries();
-        CHECK_THROWS_WITH_AS(io::write_gltf(folder / name, model, uv), doctest::Contains("is there already"),
-                             io::io_error);
+        CHECK_THROWS_WITH_AS(model.write(folder / name, uv), doctest::Contains("is there already"), io::io_error);
         CHECK(folder.entries() == before);
     };
     refuses("data.gltf"); // the data of the input
-    io::write_gltf(folder / "a.gltf", model, uv);
+    model.write(folder / "a.gltf", uv);
     CHECK(require_kept(model, uv, io::read_gltf(folder / "a.gltf"), 0) > 0);
     CHECK(io::impl::read_file(folder / "data.bin") == builder.bytes);
-    io::write_gltf(folder / "a.gltf", model, uv); // a.bin is its own now
+    model.write(folder / "a.gltf", uv); // a.bin is its own now
     folder.write(folder / "b.bin", "of somebody");
     refuses("b.gltf");
     folder.write(folder / "b.gltf", "no document");
@@ -636,7 +635,7 @@ TEST_CASE("gltf: a file beside a document is replaced only as its buffer")
     folder.write(folder / "b.gltf", builder.gltf("a.bin")); // another one's
     refuses("b.gltf");
     if (test::make_link("nowhere", folder / "c.bin")) refuses("c.gltf");
-    io::write_gltf(folder / "b.glb", model, uv); // has its data in it
+    model.write(folder / "b.glb", uv); // has its data in it
     CHECK(io::impl::read_file(folder / "b.bin") == "of somebody");
     CHECK(io::impl::gltf_companions(folder / "b.glb").empty());
     CHECK(io::impl::gltf_companions(folder / "none.gltf").empty());
@@ -657,10 +656,10 @@ TEST_CASE("gltf: a surface becomes a new model that names the vertices it came f
     triangles.push_back({0, 1, 81}); // not finite
     triangles.push_back({0, 1, 82}); // not there
 
-    const auto model = io::gltf_of(points, triangles);
+    const auto model = io::gltf_model(points, triangles);
     const test::temporary_folder folder;
     const auto uv = chart_uv(model, 4);
-    io::write_gltf(folder / "out.glb", model, uv);
+    model.write(folder / "out.glb", uv);
     const auto back = io::read_gltf(folder / "out.glb");
     REQUIRE(back.triangles.size() == triangles.size());
     const auto p = io::impl::primitives_of(back.source).all[0];
@@ -690,7 +689,7 @@ TEST_CASE("gltf: a surface becomes a new model that names the vertices it came f
                 normals[3 * v + 2] * static_cast<double>(torus.normals[3 * static_cast<std::size_t>(source) + 2]);
             CHECK(along > 0.9);
         }
-    CHECK_THROWS_AS(io::gltf_of({}, {}), mesh_error);
+    CHECK_THROWS_AS(io::gltf_model({}, {}), mesh_error);
 }
 
 TEST_CASE("gltf: a new model lies about its middle where floats do not hold it, with doubles in the node")
@@ -712,8 +711,8 @@ TEST_CASE("gltf: a new model lies about its middle where floats do not hold it, 
         return points;
     };
     const auto node_of = [](const io::gltf_model& model) { return model.source.document["nodes"][0]; };
-    CHECK(node_of(io::gltf_of(grown(vec3(0), 1), triangles)) == gltf_json{{"mesh", 0}});
-    CHECK(node_of(io::gltf_of(grown(vec3(7, 0, 0), 1), triangles)) == gltf_json{{"mesh", 0}});
+    CHECK(node_of(io::gltf_model(grown(vec3(0), 1), triangles)) == gltf_json{{"mesh", 0}});
+    CHECK(node_of(io::gltf_model(grown(vec3(7, 0, 0), 1), triangles)) == gltf_json{{"mesh", 0}});
     using place = std::pair<vec3, double>;
     for (const auto& [shift, times] : {place(vec3(500000.1, 5400000.3, 12), 1.0),
                                        {vec3(0), 1e60},
@@ -725,7 +724,7 @@ TEST_CASE("gltf: a new model lies about its middle where floats do not hold it, 
         const double size = times; // which lambdas may capture
         CAPTURE(size);
         const auto points = grown(shift, size);
-        const auto model = io::gltf_of(points, triangles);
+        const auto model = io::gltf_model(points, triangles);
         CHECK(model.notes.empty());
         const auto node = node_of(model);
         const auto a = io::impl::accessor_of(model.source, 0);
@@ -751,10 +750,10 @@ TEST_CASE("gltf: triangles that floats flatten are told, where no middle saves t
                                    {5e5, 5e5, 0}, {5e5 + 1e-4, 5e5, 0}, {5e5, 5e5 + 1e-4, 0},
                                    {8e5, 3e5, 0}, {8e5 + 1e-4, 3e5, 0}, {8e5, 3e5 + 1e-4, 0}};
     const std::vector<std::array<taut::idx, 3>> one{{0, 1, 2}, {3, 4, 5}}, two{{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
-    const auto saved = io::gltf_of(points, one);
+    const auto saved = io::gltf_model(points, one);
     CHECK(saved.notes.empty());
     CHECK(saved.source.document["nodes"][0]["translation"] == gltf_json{5e5, 5e5, 0.0});
-    const auto lost = io::gltf_of(points, two);
+    const auto lost = io::gltf_model(points, two);
     REQUIRE(lost.notes.size() == 1);
     CHECK(lost.notes[0].starts_with("1 triangle with an area that single precision"));
 }

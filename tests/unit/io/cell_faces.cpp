@@ -24,7 +24,7 @@ io::volume_file mixed_file()
 TEST_CASE("cell faces: normals point out, and the sides of cells that meet know each other")
 {
     const auto file = mixed_file();
-    const auto sides = io::cell_faces_of(file);
+    const auto sides = file.faces();
     REQUIRE(sides.faces.size() == 2 * 4 + 6 + 5 + 5);
     std::vector<vec3> centres;
     io::impl::for_each_cell(file, 3,
@@ -54,8 +54,7 @@ TEST_CASE("cell faces: a face with three cells is non_manifold")
     auto s = test::small_volume(false);
     s.cells.push_back({io::cell_kind::tetrahedron, {0, 1, 2, static_cast<idx>(s.points.size())}, 1});
     s.points.push_back({0.5, 0.4, 1});
-    const auto sides =
-        io::cell_faces_of(io::impl::parse_volume(test::medit_text(s), io::volume_format::medit, "a.mesh"));
+    const auto sides = io::impl::parse_volume(test::medit_text(s), io::volume_format::medit, "a.mesh").faces();
     CHECK(std::count(sides.twin.begin(), sides.twin.end(), io::impl::cell_faces::non_manifold) == 3);
 }
 

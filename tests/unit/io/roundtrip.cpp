@@ -138,33 +138,33 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
     // Vertices 1 and 2 lie on a seam; one vt a corner is none.
     const std::string text = head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 5 0\nvt 6 1\nvt 5 1\nf 1/1 2/2 3/3\nf 2/4 4/5 3/6\n";
     const auto file = io::impl::parse_obj(text);
-    const auto cut = io::cut_seams(file).value();
+    const auto cut = file.cut_seams().value();
     CHECK(cut.surface.cells() == std::vector<std::array<taut::idx, 3>>{{0, 1, 2}, {4, 3, 5}});
     CHECK(cut.surface.points()[5] == vec3(0, 1, 0));
     CHECK(cut.origins == std::vector<taut::idx>{0, 1, 2, 3, 1, 2});
     CHECK(cut.uv == std::vector<vec2>{{0, 0}, {1, 0}, {0, 1}, {6, 1}, {5, 0}, {5, 1}});
     CHECK(cut.seam_vertices == 2);
-    CHECK_FALSE(io::cut_seams(io::impl::parse_obj(head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt -0 1\n"
-                                                         "f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n")));
+    CHECK_FALSE(io::impl::parse_obj(head + "vt 0 0\nvt 1 0\nvt 0 1\nvt 1 0\nvt 1 1\nvt -0 1\n"
+                                           "f 1/1 2/2 3/3\nf 2/4 4/5 3/6\n")
+                    .cut_seams());
     // Charts that share a texture coordinate at a vertex, but no edge, are apart: here two quads that both have all of
     // the texture.
-    const auto tiles =
-        io::cut_seams(io::impl::parse_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
-                                          "vt 1 1\nvt 0 1\nf 1/1 2/2 5/3 4/4\nf 2/2 3/1 6/4 5/1\n"))
-            .value();
+    const auto tiles = io::impl::parse_obj("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 0\nvt 0 0\nvt 1 0\n"
+                                           "vt 1 1\nvt 0 1\nf 1/1 2/2 5/3 4/4\nf 2/2 3/1 6/4 5/1\n")
+                           .cut_seams()
+                           .value();
     CHECK(tiles.surface.vertex_count() == 8);
     CHECK(tiles.seam_vertices == 2);
     CHECK(std::vector<taut::idx>(tiles.corners.begin(), tiles.corners.begin() + 4) ==
           std::vector<taut::idx>{0, 1, 4, 3});
     CHECK(tiles.corners[4] + tiles.corners[7] == 6 + 7);
-    CHECK_THROWS_AS(io::cut_seams(io::impl::parse_obj(head + "vt 0 0\nf 1/1 2/1 3/1\nf 2/1 4 3/1\n")),
-                    io::texcoord_error);
+    CHECK_THROWS_AS(io::impl::parse_obj(head + "vt 0 0\nf 1/1 2/1 3/1\nf 2/1 4 3/1\n").cut_seams(), io::texcoord_error);
 
     // A polygon stays whole, though a third triangle meets its two halves where it is split.
     const auto non_manifold =
         io::impl::parse_obj("v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 2 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvt 5 5\n"
                             "f 1/5 3/5 5/5\nf 1/1 2/2 3/3 4/4\n");
-    const auto whole = io::cut_seams(non_manifold).value();
+    const auto whole = non_manifold.cut_seams().value();
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t k = 0; k < 3; ++k)
             CHECK(whole.corners[non_manifold.faces.corner(c, k)] == whole.surface.cells()[c][k]);
@@ -174,7 +174,7 @@ TEST_CASE("cut_seams: a vertex for each texture coordinate that its corners have
     io::write_obj(folder / "out.obj", file, cut, numbered(6));
     CHECK(folder.read(folder / "out.obj") ==
           head + "vt 0 -1\nvt 1 -1\nvt 2 -1\nvt 3 -1\nvt 4 -1\nvt 5 -1\nf 1/1 2/2 3/3\nf 2/5 4/4 3/6\n");
-    const auto again = io::cut_seams(io::read_surface_file(folder / "out.obj")).value();
+    const auto again = io::read_surface_file(folder / "out.obj").cut_seams().value();
     CHECK(again.surface.cells() == cut.surface.cells());
 }
 
@@ -184,5 +184,5 @@ TEST_CASE("surface_file: a texture coordinate that is not there is an error, not
     file.texcoord_cells[0][1] = 7;
     CHECK_THROWS_AS(file.texcoord(0, 1), io::texcoord_error);
     CHECK_THROWS_AS(file.vertex_texcoords(), io::texcoord_error);
-    CHECK_THROWS_AS(io::cut_seams(file), io::texcoord_error);
+    CHECK_THROWS_AS(file.cut_seams(), io::texcoord_error);
 }

@@ -140,17 +140,17 @@ TEST_CASE("writing: single precision rounds, and says to what")
     {
         const auto file =
             io::impl::parse_volume(test::vtk_text(s, {.text = text, .single = true}, 3), volume_format::vtk, "a.vtk");
-        const auto rounded = io::rounded_to_file(file, points);
+        const auto rounded = file.rounded(points);
         CHECK(rounded[1].x == static_cast<double>(0.1f));
         const auto back = io::impl::parse_volume(io::impl::with_points(file, points), volume_format::vtk);
         CHECK(back.points[1].x == (text ? 0.1 : static_cast<double>(0.1f)));
-        CHECK(io::rounded_to_file(back, back.points) == rounded);
+        CHECK(back.rounded(back.points) == rounded);
         points[1].x = 1e300;
         if (!text) CHECK_THROWS_AS(io::impl::with_points(file, points), parameter_error);
         points[1].x = 0.1;
     }
     const auto twice = io::impl::parse_volume(test::vtk_text(s, {}, 3), volume_format::vtk);
-    CHECK(io::rounded_to_file(twice, points) == points);
+    CHECK(twice.rounded(points) == points);
 }
 
 TEST_CASE("writing: what a file cannot hold is refused")
@@ -178,12 +178,11 @@ TEST_CASE("writing: no output is an input, nor of another format")
     const bool links = test::make_link(folder / "in.mesh", folder / "link.mesh");
     const auto file = io::read_volume_file(folder / "in.mesh");
     for (const char* name : {"in.mesh", links ? "link.mesh" : "in.mesh"})
-        CHECK_THROWS_WITH_AS(io::write_volume(folder / name, file, file.points), doctest::Contains("is the input"),
-                             io::io_error);
-    CHECK_THROWS_WITH_AS(io::write_volume(folder / "out.vtk", file, file.points),
+        CHECK_THROWS_WITH_AS(file.write(folder / name, file.points), doctest::Contains("is the input"), io::io_error);
+    CHECK_THROWS_WITH_AS(file.write(folder / "out.vtk", file.points),
                          doctest::Contains("the format of its input, MEDIT"), io::io_error);
     CHECK(folder.entries() == (links ? 2 : 1));
-    io::write_volume(folder / "out.mesh", file, file.points);
+    file.write(folder / "out.mesh", file.points);
     CHECK(folder.read(folder / "out.mesh") == text);
 }
 

@@ -61,18 +61,17 @@ TEST_CASE("TetGen: either name reads and writes all files")
     CHECK(file.companions.size() == 1);
     auto points = file.points;
     points[3].z = 0.125;
-    io::write_volume(folder / "out.ele", file, points);
+    file.write(folder / "out.ele", points);
     CHECK(folder.read(folder / "out.ele") == folder.read(folder / "in.ele"));
     CHECK(io::read_volume_file(folder / "out.node").points == points);
     CHECK(folder.entries() == 4);
 
     folder.write(folder / "in.face", test::tetgen_cells(s, cell_kind::triangle));
     const auto three = io::read_volume_file(folder / "in.node");
-    io::write_volume(folder / "three.node", three, three.points);
+    three.write(folder / "three.node", three.points);
     CHECK(folder.read(folder / "three.face") == folder.read(folder / "in.face"));
     CHECK(folder.read(folder / "three.node") == folder.read(folder / "in.node"));
-    CHECK_THROWS_WITH_AS(io::write_volume(folder / "in.ele", three, points), doctest::Contains("is the input"),
-                         io::io_error);
+    CHECK_THROWS_WITH_AS(three.write(folder / "in.ele", points), doctest::Contains("is the input"), io::io_error);
     std::filesystem::remove(folder / "in.ele");
     CHECK_THROWS_AS(io::read_volume_file(folder / "in.node"), io::io_error);
 }

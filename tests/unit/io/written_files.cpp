@@ -319,7 +319,7 @@ TEST_CASE("write_moved: of OBJ all but coordinates stays, and what they were joi
         folder.write(folder / name, text);
         const auto file = io::read_surface_file(folder / name);
         io::atomic_file out(folder / "out.obj");
-        io::write_moved(out, file, points);
+        file.write(out, points);
         out.commit();
         CHECK(io::read_surface(folder / "out.obj").points() == points);
         return folder.read(folder / "out.obj");
@@ -332,7 +332,7 @@ TEST_CASE("write_moved: of OBJ all but coordinates stays, and what they were joi
           "v 0.1 2 3\nv 4 5 6\nv 7 8 9e+30\nv -1 0 0\nf 1 2 3 4\n");
     const auto file = io::read_surface_file(folder / "a.off");
     io::atomic_file out(folder / "out.obj");
-    CHECK_THROWS_AS(io::write_moved(out, file, std::vector<vec3>(3)), parameter_error);
+    CHECK_THROWS_AS(file.write(out, std::vector<vec3>(3)), parameter_error);
 }
 
 TEST_CASE("read_file: what has no end is an error")

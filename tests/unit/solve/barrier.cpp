@@ -85,7 +85,7 @@ TEST_CASE_TEMPLATE("barrier: no trial ever leaves the domain, and the minimum ne
             std::vector<double> x{5, 5, 5, 5};
             const auto r = minimize(f, x,
                                     {.line_search = method,
-                                     .stopping = {.gradient_tolerance = 1e-9},
+                                     .gradient_tolerance = 1e-9,
                                      .tuning = {.line = {.barrier_fraction = fraction}}});
             CAPTURE(r);
             CHECK(r.stop == stop::gradient);
@@ -128,7 +128,7 @@ TEST_CASE("barrier: a minimum on the barrier itself ends with stop::barrier, ins
         double max_step(const point& x, const point& d) const { return -x[0] / d[0]; }
     } f(1);
     std::vector<double> x{3};
-    const auto r = minimize(f, x, {.stopping = {.decrease_tolerance = 1e-12}});
+    const auto r = minimize(f, x, {.decrease_tolerance = 1e-12});
     CAPTURE(r);
     CHECK((r.stop == stop::barrier || r.stop == stop::line_search));
     CHECK(x[0] > 0);

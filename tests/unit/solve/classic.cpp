@@ -98,10 +98,9 @@ TEST_CASE("minimize: solves classic problems from their classic starts with ever
                 CAPTURE(int(search));
                 host_objective f(p.start.size(), p.f);
                 std::vector<double> x = p.start;
-                const auto r = minimize(f, x,
-                                        {.method = which,
-                                         .line_search = search,
-                                         .stopping = {.gradient_tolerance = 1e-10, .max_iterations = 2000}});
+                const auto r = minimize(
+                    f, x,
+                    {.method = which, .line_search = search, .gradient_tolerance = 1e-10, .max_iterations = 2000});
                 CAPTURE(r);
                 CHECK(converged(r.stop));
                 CHECK(functions::distance(x, p.minimum) <= p.tolerance);
@@ -129,7 +128,7 @@ TEST_CASE("minimize: noise in values is tolerated where the objective states its
     {
         rounded f(50);
         std::vector<double> x = functions::noise(50);
-        const auto r = minimize(f, x, {.line_search = search, .stopping = {.gradient_tolerance = 1e-8}});
+        const auto r = minimize(f, x, {.line_search = search, .gradient_tolerance = 1e-8});
         CAPTURE(r);
         CHECK(r.stop == stop::gradient); // far below the 3e-4 that the values could tell
         CHECK(functions::largest_rise(r) <= 1e-7);

@@ -15,7 +15,8 @@ report run(std::vector<double>& x, conjugate_gradient_params p, double curvature
     auto f = functions::rosenbrock(x.size());
     return minimize(f, x,
                     {.method = method::conjugate_gradient,
-                     .stopping = {.gradient_tolerance = tolerance, .max_iterations = 5000},
+                     .gradient_tolerance = tolerance,
+                     .max_iterations = 5000,
                      .tuning = {.line = {.wolfe = {.curvature = curvature}}, .conjugate_gradient = p}});
 }
 
@@ -58,7 +59,7 @@ TEST_CASE("conjugate gradient: plain and with exact searches it solves a quadrat
         const auto r = minimize(
             f, x,
             {.method = method::conjugate_gradient,
-             .stopping = {.gradient_tolerance = 1e-6},
+             .gradient_tolerance = 1e-6,
              .tuning = {.line = {.wolfe = {.curvature = 0.001}, .exact = {.tolerance = 1e-9, .evaluations = 60}},
                         .conjugate_gradient = {.beta = beta, .memory = {.pairs = 0}}}});
         CHECK(r.stop == stop::gradient);
@@ -128,7 +129,8 @@ TEST_CASE("conjugate gradient: both forms of the preconditioner give the same it
         std::vector<double> x = functions::noise(50), y = x;
         const params p{.method = method::conjugate_gradient,
                        .line_search = line_search_method::strong_wolfe, // Brent's steps are noise from 1e-8 on
-                       .stopping = {.gradient_tolerance = 0, .max_iterations = 30},
+                       .gradient_tolerance = 0,
+                       .max_iterations = 30,
                        .tuning = {.conjugate_gradient = {.beta = beta, .memory = {.pairs = 3}}}};
         minimize(f, x, p);
         minimize_by_two_loops(f, y, p);

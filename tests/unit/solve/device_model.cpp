@@ -132,13 +132,13 @@ TEST_CASE("device model: points in double and vectors in float reach gradients o
         device_objective f(80);
         auto x = f.make_point();
         *x.data = functions::noise(80);
-        const auto r = minimize(f, x, {.method = which, .stopping = {.gradient_tolerance = 1e-8}});
+        const auto r = minimize(f, x, {.method = which, .gradient_tolerance = 1e-8});
         CAPTURE(r);
         CHECK(r.stop == stop::gradient);
 
         auto host = functions::chain(80);
         std::vector<double> y = functions::noise(80);
-        const auto reference = minimize(host, y, {.method = which, .stopping = {.gradient_tolerance = 1e-8}});
+        const auto reference = minimize(host, y, {.method = which, .gradient_tolerance = 1e-8});
         CHECK(r.value == doctest::Approx(reference.value).epsilon(1e-12));
         CHECK(functions::largest_rise(r) <= 1e-14);
     }
@@ -177,7 +177,7 @@ TEST_CASE("device model: the textbook form waits for every product")
         device_objective f(80);
         auto x = f.make_point();
         *x.data = functions::noise(80);
-        const params p{.stopping = {.max_iterations = 20}};
+        const params p{.max_iterations = 20};
         const auto r = two_loops ? minimize_by_two_loops(f, x, p) : minimize(f, x, p);
         return double(f.space().waits) / r.iterations;
     };

@@ -29,7 +29,7 @@ TEST_CASE("lbfgs: minimises Rosenbrock's function in 2 to 100 dimensions with ev
             auto f = functions::rosenbrock(n);
             // In 4 and more dimensions there is a second minimum near (-1, 1, ..., 1): start on this side of it.
             std::vector<double> x = n < 4 ? functions::rosenbrock_start(n) : std::vector<double>(n, 0.3);
-            const auto r = minimize(f, x, {.line_search = method, .stopping = {.gradient_tolerance = 1e-9}});
+            const auto r = minimize(f, x, {.line_search = method, .gradient_tolerance = 1e-9});
             CHECK(r.stop == stop::gradient);
             CHECK(functions::distance(x, 1) <= 1e-5);
             CHECK(r.value == f.value(x));
@@ -47,7 +47,8 @@ TEST_CASE("lbfgs: with enough memory solves a quadratic of condition 1e8 to 1e-1
         std::vector<double> x(12, -3.0);
         const auto r = minimize(f, x,
                                 {.line_search = method,
-                                 .stopping = {.gradient_tolerance = 1e-10, .max_iterations = 400},
+                                 .gradient_tolerance = 1e-10,
+                                 .max_iterations = 400,
                                  .tuning = {.lbfgs = {.memory = {.pairs = 24}}}});
         CAPTURE(r);
         CHECK(r.stop == stop::gradient);
@@ -66,7 +67,7 @@ TEST_CASE("lbfgs: badly scaled variables and values change nothing but the first
             CAPTURE(factor);
             auto f = functions::rosenbrock(4, scale, factor);
             std::vector<double> x(4, 0.3 * scale);
-            const auto r = minimize(f, x, {.stopping = {.gradient_tolerance = 1e-9}});
+            const auto r = minimize(f, x, {.gradient_tolerance = 1e-9});
             CHECK(r.stop == stop::gradient);
             CHECK(functions::distance(x, scale) <= 1e-5 * scale);
             CHECK(r.iterations < 60);
@@ -84,9 +85,9 @@ TEST_CASE("lbfgs: the two forms of the inverse Hessian give the same iterates to
                 CAPTURE(iterations);
                 auto f = functions::chain(50);
                 std::vector<double> x = functions::noise(50), y = x;
-                const stopping_params stopping{.gradient_tolerance = 0, .max_iterations = iterations};
                 const params p{.line_search = line_search_method::strong_wolfe, // Brent's steps are noise from 1e-8 on
-                               .stopping = stopping,
+                               .gradient_tolerance = 0,
+                               .max_iterations = iterations,
                                .tuning = {.lbfgs = {.memory = {.pairs = pairs, .scaling = scale}}}};
                 const auto gram = minimize(f, x, p), loop = minimize_by_two_loops(f, y, p);
                 CHECK(gram.evaluations == loop.evaluations);
@@ -104,7 +105,7 @@ TEST_CASE("lbfgs: near convergence, where decreases are lost in rounding, gradie
             CAPTURE(int(method));
             auto f = functions::quadratic(40, 100, offset);
             std::vector<double> x = functions::noise(40);
-            const auto r = minimize(f, x, {.line_search = method, .stopping = {.gradient_tolerance = 1e-10}});
+            const auto r = minimize(f, x, {.line_search = method, .gradient_tolerance = 1e-10});
             CHECK(r.stop == stop::gradient);
             CHECK(functions::distance(x, 1) <= 1e-7);
             CHECK(functions::largest_rise(r) <= 1e-14);
@@ -118,7 +119,7 @@ TEST_CASE("lbfgs: at the limit of rounding it ends by itself, soon")
         CAPTURE(int(method));
         auto f = functions::chain(60);
         std::vector<double> x = functions::noise(60);
-        const auto r = minimize(f, x, {.line_search = method, .stopping = {.gradient_tolerance = 0}});
+        const auto r = minimize(f, x, {.line_search = method, .gradient_tolerance = 0});
         CAPTURE(r);
         CHECK((r.stop == stop::decrease || r.stop == stop::line_search || r.stop == stop::gradient));
         CHECK(r.gradient_norm < 1e-7);
@@ -165,7 +166,7 @@ TEST_CASE("lbfgs: with the exact inverse Hessian as preconditioner a quadratic t
         {
             preconditioned f(8);
             std::vector<double> x(8, 5.0);
-            const params p{.method = which, .stopping = {.gradient_tolerance = 1e-9}};
+            const params p{.method = which, .gradient_tolerance = 1e-9};
             const auto r = two_loops ? minimize_by_two_loops(f, x, p) : minimize(f, x, p);
             CHECK(r.stop == stop::gradient);
             CHECK(r.iterations <= 3);
@@ -186,8 +187,8 @@ TEST_CASE("lbfgs: saddles and concave starts do not mislead it")
     for (const auto method : searches)
     {
         std::vector<double> x{1e-6, 1e-5};
-        const auto r = minimize(
-            f, x, {.line_search = method, .stopping = {.gradient_tolerance = 1e-4}, .tuning = {.first_length = 1e-6}});
+        const auto r =
+            minimize(f, x, {.line_search = method, .gradient_tolerance = 1e-4, .tuning = {.first_length = 1e-6}});
         CHECK(converged(r.stop));
         CHECK(x[0] == doctest::Approx(1).epsilon(1e-6));
         if (method == line_search_method::backtracking) CHECK(r.skipped_pairs > 0); // short steps in the concave part

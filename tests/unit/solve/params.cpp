@@ -13,19 +13,23 @@ TEST_CASE("params: the defaults are valid")
 {
     CHECK_NOTHROW(params{}.validate());
     CHECK_NOTHROW(descent_params{}.validate());
+    const stopping_params usual, asked = params{}.common().stopping;
+    CHECK(asked.gradient_tolerance == usual.gradient_tolerance);
+    CHECK(asked.decrease_tolerance == usual.decrease_tolerance);
+    CHECK(asked.max_iterations == usual.max_iterations);
 }
 
 TEST_CASE("params: a bad field is named, also by minimize")
 {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<std::pair<std::string, std::function<void(params&)>>> cases{
-        {"stopping.gradient_tolerance", [](params& p) { p.stopping.gradient_tolerance = -1; }},
-        {"stopping.settled_tolerance", [](params& p) { p.stopping.settled_tolerance = 1; }},
-        {"stopping.decrease_tolerance", [&](params& p) { p.stopping.decrease_tolerance = nan; }},
-        {"stopping.step_tolerance", [](params& p) { p.stopping.tuning.step_tolerance = 1; }},
-        {"stopping.decrease_count", [](params& p) { p.stopping.tuning.decrease_count = 0; }},
-        {"stopping.barrier_count", [](params& p) { p.stopping.tuning.barrier_count = 0; }},
-        {"stopping.max_iterations", [](params& p) { p.stopping.max_iterations = -1; }},
+        {"gradient_tolerance", [](params& p) { p.gradient_tolerance = -1; }},
+        {"stopping.settled_tolerance", [](params& p) { p.tuning.stopping.settled_tolerance = 1; }},
+        {"decrease_tolerance", [&](params& p) { p.decrease_tolerance = nan; }},
+        {"stopping.step_tolerance", [](params& p) { p.tuning.stopping.step_tolerance = 1; }},
+        {"stopping.decrease_count", [](params& p) { p.tuning.stopping.decrease_count = 0; }},
+        {"stopping.barrier_count", [](params& p) { p.tuning.stopping.barrier_count = 0; }},
+        {"max_iterations", [](params& p) { p.max_iterations = -1; }},
         {"wolfe.sufficient_decrease", [](params& p) { p.tuning.line.wolfe.sufficient_decrease = 0.5; }},
         {"wolfe.curvature", [](params& p) { p.tuning.line.wolfe.curvature = 1e-5; }},
         {"exact.tolerance", [](params& p) { p.tuning.line.exact.tolerance = 0; }},

@@ -50,7 +50,7 @@ TEST_CASE("stopping: the iteration limit keeps the best iterate, and more iterat
     for (const int limit : {0, 1, 2, 5, 11, 20})
     {
         std::vector<double> x(6, 0.3);
-        const auto r = minimize(f, x, {.stopping = {.gradient_tolerance = 1e-12, .max_iterations = limit}});
+        const auto r = minimize(f, x, {.gradient_tolerance = 1e-12, .max_iterations = limit});
         CHECK(r.stop == stop::iterations);
         CHECK(r.iterations == limit);
         CHECK(r.history.size() == std::size_t(limit) + 1);
@@ -129,7 +129,7 @@ TEST_CASE("stopping: the time limit ends the run in the middle of a line search"
                          return std::pow(x[0] - 1, 4) + 1e4 * std::pow(x[1] - 1, 4);
                      });
     std::vector<double> x{30, -20};
-    const auto r = minimize(f, x, {.stopping = {.gradient_tolerance = 0}}, {.time_limit = limit});
+    const auto r = minimize(f, x, {.gradient_tolerance = 0}, {.time_limit = limit});
     CHECK(r.stop == stop::time);
     CHECK(calls <= 3);
     CHECK(late == 0); // nothing is computed after the limit
@@ -231,7 +231,7 @@ TEST_CASE("stopping: two promises in a row of next to nothing above the base mea
 
 TEST_CASE("stopping: a run has settled where five Newton steps together gain next to nothing near a minimum")
 {
-    const stopping_params params{.settled_tolerance = 1e-3, .tuning = {.base = 4}};
+    const stopping_params params{.tuning = {.base = 4, .settled_tolerance = 1e-3}};
     const step_record little{.iteration = 1, .value_before = 14, .value = 13.999, .gradient = 1e-2, .newton = true};
     /// Steps until it ends, of at most nine: `others` first, then like k, each from where the last one ended.
     const auto steps = [&](const step_record& k, const stopping_params& p, std::vector<step_record> others = {})
@@ -277,9 +277,9 @@ TEST_CASE("stopping: a run has settled where five Newton steps together gain nex
     CHECK(steps(other, params) == 10);
     CHECK(steps(little, params, {other, other, other, other}) == 5); // only the last one matters
 
-    CHECK(steps(little, {.settled_tolerance = 1e-6, .tuning = {.base = 4}}) == 10);
+    CHECK(steps(little, {.tuning = {.base = 4, .settled_tolerance = 1e-6}}) == 10);
     CHECK(steps(little, {}) == 10);
-    CHECK_FALSE(stopping_params{}.settled_tolerance > 0);
+    CHECK_FALSE(stopping_params{}.tuning.settled_tolerance > 0);
 }
 
 TEST_CASE("stopping: steps are measured by the longest one")
@@ -296,15 +296,17 @@ TEST_CASE("stopping: steps are measured by the longest one")
 TEST_CASE("stopping: each tolerance ends a real run")
 {
     auto f = functions::quadratic(20, 1e4, 1.0);
-    const auto reason = [&](stopping_params p)
+    const auto reason = [&](params p)
     {
         std::vector<double> x(20, 3.0);
         p.max_iterations = 2000;
-        return minimize(f, x, {.stopping = p}).stop;
+        return minimize(f, x, p).stop;
     };
     CHECK(reason({.gradient_tolerance = 1e-5}) == stop::gradient);
     CHECK(reason({.gradient_tolerance = 0, .decrease_tolerance = 1e-4}) == stop::decrease);
-    CHECK(reason({.gradient_tolerance = 0, .decrease_tolerance = 0, .tuning = {.step_tolerance = 1e-3}}) == stop::step);
+    CHECK(
+        reason({.gradient_tolerance = 0, .decrease_tolerance = 0, .tuning = {.stopping = {.step_tolerance = 1e-3}}}) ==
+        stop::step);
 }
 
 TEST_CASE("report: prints one line and keeps the stream's format")

@@ -16,11 +16,12 @@
 namespace taut::impl
 {
 
-/// Stopping criteria of maps of a rough surface: two steps gain less than a hundredth each of what the map has above an
-/// isometry. One alone may be short, the first one above all.
-inline solve::impl::stopping_params rough_stopping()
+/// Solver of maps of a rough surface, which ends where two steps gain less than a hundredth each of what the map has
+/// above an isometry. One alone may be short, the first one above all.
+inline solve::params rough_solve(int max_iterations)
 {
-    return {.decrease_tolerance = 1e-2, .tuning = {.decrease_count = 2}};
+    return {
+        .decrease_tolerance = 1e-2, .max_iterations = max_iterations, .tuning = {.stopping = {.decrease_count = 2}}};
 }
 
 /// Precision of maps of a rough surface: its needles are more than single precision holds.
@@ -37,7 +38,7 @@ struct flatten_tuning
     double largest = 30;
 
     /// True for charts of a rough surface, on which coarser levels say little about finer ones: large charts begin with
-    /// a barycentric map, and end as by rough_stopping().
+    /// a barycentric map, and end as by rough_solve().
     bool rough = false;
 };
 

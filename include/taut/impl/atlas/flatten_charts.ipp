@@ -213,14 +213,13 @@ private:
             steps += p.iterate ? 1 : 0;
             return steps <= 4 * params_.max_iterations && proceed();
         };
-        params.solve.stopping.max_iterations = params_.max_iterations;
+        params.solve.max_iterations = params_.max_iterations;
         if (params_.tuning.rough)
         {
             params.start = start_method::barycentric;
             params.tuning.stretch_rounds = 1;
             params.precision = rough_precision(queue_);
-            params.solve.stopping = rough_stopping();
-            params.solve.stopping.max_iterations = params_.max_iterations;
+            params.solve = rough_solve(params_.max_iterations);
         }
         try
         {

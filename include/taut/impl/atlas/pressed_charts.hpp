@@ -155,8 +155,7 @@ private:
         for (const idx v : border)
             if (const vec2 inside = glm::clamp(set_.uv[u(v)], -half, half); inside != set_.uv[u(v)])
                 params.constraints.spring(v - first, inside, weight);
-        params.solve.stopping = rough_stopping();
-        params.solve.stopping.max_iterations = 10;
+        params.solve = rough_solve(10);
         const auto map = parameterize(run_.device, alone, params, run_.limits("pack"));
         return map.uv.size() == x.size() && move(chart, map.uv, square.side);
     }

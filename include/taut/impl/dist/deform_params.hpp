@@ -8,7 +8,6 @@
 #include <taut/impl/dist/constraints.hpp>
 #include <taut/impl/dist/solver_params.hpp>
 #include <taut/impl/energy/any_energy.hpp>
-#include <taut/impl/mesh/target_shapes.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
 
@@ -22,20 +21,18 @@ struct deform_params
 {
     static constexpr int D = Element::dimension;
 
-    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts, alone or with parameters, as {cloth{}, {0.5}}; so do sums and
+    /// products of energies.
     any_energy energy = taut::impl::default_energy();
 
     /// Weights of elements in the sum: rest measure, as is usual, or all equal.
     energy::weighting weights = energy::weighting::measure;
 
-    /// Numbers that the energy reads as e.parameter(k).
-    std::vector<double> parameters = {};
-
     /// Pins, which are met bit for bit, and springs; of all processes together.
     dist::constraints<Element> constraints = {};
 
-    /// Target shapes: `regular` elements, of the mean size, have no rest shape.
-    target_shapes shapes = target_shapes::rest;
+    /// True if the target shape of elements is a regular one, of the mean size, and the mesh has no rest shape.
+    bool regular = false;
 
     /// Initial shape, if it is not that of the mesh: one position per vertex of the piece. No element is inverted.
     std::vector<vec<D>> initial = {};

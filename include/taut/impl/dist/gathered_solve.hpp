@@ -160,10 +160,9 @@ private:
         std::vector<typename mesh<Element>::cell> simplices(cells.size());
         taut::deform_params<Element> how{.energy = params.energy,
                                          .weights = params.weights,
-                                         .parameters = params.parameters,
-                                         .shapes = params.shapes,
+                                         .regular = params.regular,
                                          .precision = params.precision};
-        how.solve.stopping.gradient_tolerance = params.solve.stopping.gradient_tolerance;
+        how.solve.gradient_tolerance = params.solve.gradient_tolerance;
         for (const auto& d : data)
         {
             if (d.owner >= 0) how.owners.push_back(static_cast<idx>(d.owner));

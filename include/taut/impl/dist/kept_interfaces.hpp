@@ -138,8 +138,8 @@ io::volume_file cells_of(const part<Element>& p, const std::vector<long long>& r
     return file;
 }
 
-/// Collective. Facets with an owned vertex of the surfaces that smoothing keeps, as io::kept_facets() finds them
-/// in the whole mesh: all cells and labelled faces of an owned vertex are here.
+/// Collective. Facets with an owned vertex of the surfaces that smoothing keeps, as io::volume_file::kept_facets()
+/// finds them in the whole mesh: all cells and labelled faces of an owned vertex are here.
 template <class Element>
 std::vector<taut::impl::kept_facet> kept_interfaces(const part<Element>& p, const mesh_piece<Element>& piece,
                                                     const smooth_params& params)
@@ -158,7 +158,7 @@ std::vector<taut::impl::kept_facet> kept_interfaces(const part<Element>& p, cons
                               {vertices.begin(), vertices.begin() + static_cast<std::ptrdiff_t>(n)}});
         file.labels[0].values.push_back(label);
     }
-    auto kept = io::kept_facets(file, params.boundary == smooth_boundary::sliding);
+    auto kept = file.kept_facets(params.boundary == smooth_boundary::sliding);
     std::erase_if(kept,
                   [&](const auto& facet)
                   {

@@ -37,14 +37,14 @@ public:
 
     /// Collective. Throws mesh_error.
     rest_model(const part<Element>& p, const deform_params<Element>& params)
-        : model{bound(params),
+        : model{params.energy,
                 taut::impl::types_of(params.precision == precision::automatic ? precision::fp64 : params.precision)}
     {
         double largest = 0;
         for (const vec3& x : p.points) largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
         largest = p.all.most(largest);
         const double unit = largest > 0 ? std::ldexp(1.0, std::clamp(-std::ilogb(largest), -1000, 1000)) : 1.0;
-        const bool regular = params.shapes == target_shapes::regular;
+        const bool regular = params.regular;
         std::unique_ptr<mesh<Element>> m;
         std::unique_ptr<taut::impl::ideal_elements<Element>> ideal;
         p.all.together([&] { m = local_mesh(p, unit, regular); });
@@ -83,11 +83,6 @@ public:
     }
 
 private:
-    static any_energy bound(const deform_params<Element>& params)
-    {
-        return params.parameters.empty() ? params.energy : params.energy.with_parameters(params.parameters);
-    }
-
     /// Cells that this process counts.
     double total(const part<Element>& p, const std::vector<double>& of_cells) const
     {

@@ -40,7 +40,7 @@ struct smooth_params
     /// Positions to begin with, if they are not those of the mesh: one per vertex of the piece. No element is inverted.
     std::vector<vec3> initial = {};
 
-    solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
+    solve::params solve = {.gradient_tolerance = 1e-4};
     impl::solver_params solver = {};
     std::optional<taut::queue> queue = {};
 

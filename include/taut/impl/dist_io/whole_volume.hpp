@@ -66,7 +66,7 @@ public:
         all_.together(
             [&]
             {
-                if (all_.rank() == 0) io::write_volume(path, file_, all);
+                if (all_.rank() == 0) file_.write(path, all);
             });
         return {};
     }

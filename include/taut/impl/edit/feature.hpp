@@ -4,12 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <utility>
 
 #include <taut/impl/edit/surface/split_chords.hpp>
 
+namespace taut::impl
+{
+
+struct feature_map;
+
+} // namespace taut::impl
+
 namespace taut
 {
+
+class queue;
 
 /// Feature cut from one surface to be pasted on another: a region with its base. The base is the plane fitted to the
 /// rim; the displacement of the region from it is the detail.
@@ -31,6 +41,24 @@ struct feature
         const vec3 first = glm::normalize(glm::cross(across, normal));
         return {first, glm::cross(normal, first), normal};
     }
+
+    /// Rasterizes the feature over a map of it, on the device. uv: one per vertex of the region, injective. resolution:
+    /// texels along the longer side, 8 to 8192. The result is continued by some texels beyond the rim. Throws
+    /// parameter_error, device_error.
+    impl::feature_map rasterize(queue& q, std::span<const vec2> uv, idx resolution = 512) const;
+
+    /// Remeshes the feature from a map: the rim is kept, and the density of the triangles inside follows the detail of
+    /// the map (paper, section 4.1, whose tessellation shader does the same). The plane within the rim is split into
+    /// square cells, the roughest first, until half of the triangles are spent or nothing is rougher than a hundredth
+    /// of a texel's footprint; their middles and the rim get a constrained Delaunay triangulation, which has no cracks
+    /// between coarse and fine; its vertices are offset by the map. Roughness and positions are computed on the device.
+    /// A map cuts off creases, and where it squeezes the feature its texels are far apart: there the feature's own
+    /// vertices, and middles of its edges, come in instead, the farthest first, until both are within a quarter of a
+    /// footprint or the triangles are spent.
+    ///
+    /// uv: those that the map was made with. The vertices inside and all triangles are none of the source (-1). Throws
+    /// parameter_error, paste_error where the rim crosses itself in uv.
+    feature tessellate(queue& q, const impl::feature_map& map, std::span<const vec2> uv, idx triangles) const;
 };
 
 inline feature::feature(impl::surface_region of) : region(impl::split_chords(std::move(of)))

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
@@ -29,6 +30,11 @@ struct feature_map
     /// A point of the plane in texels.
     vec2 in_texels(const vec2& p) const { return (p - low) / texel; }
 
+    /// Encodes the map as an OpenEXR file, and returns its bytes: R, G, B are x, y, z in the frame of the base as
+    /// 32-bit floats, A is 1 where a triangle covers a texel and 0 elsewhere. Scan lines, not compressed, the first row
+    /// of the map at the bottom.
+    std::string exr() const;
+
     bool covers(idx i, idx j) const { return values[4 * static_cast<std::size_t>(j * width + i) + 3] == 1; }
 
     /// The position at a point of the plane, bilinear. The reference of the kernel.
@@ -51,16 +57,7 @@ std::vector<vec3> sample(queue& q, const feature_map& map, std::span<const vec2>
 
 } // namespace taut::impl
 
-namespace taut
-{
-
-/// Rasterizes a feature over a map of it, on the device. uv: one per vertex of the feature's region, injective.
-/// resolution: texels along the longer side, 8 to 8192. The map is continued by some texels beyond the rim. Throws
-/// parameter_error, device_error.
-impl::feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv, idx resolution = 512);
-
-} // namespace taut
-
 #ifdef TAUT_IMPLEMENTATION
 #include <taut/impl/edit/feature_map.ipp>
+#include <taut/impl/edit/tessellate.ipp>
 #endif

@@ -104,16 +104,16 @@ inline void measure_round_trip(feature_map& map, std::span<const vec3> sampled, 
 namespace taut
 {
 
-impl::feature_map make_feature_map(queue& q, const feature& part, std::span<const vec2> uv, idx resolution)
+impl::feature_map feature::rasterize(queue& q, std::span<const vec2> uv, idx resolution) const
 {
     if (resolution < 8 || resolution > 8192) throw parameter_error("resolution", "must be from 8 to 8192");
     const idx margin = std::min<idx>(4, resolution / 4);
-    const auto& surface = part.region.surface;
+    const auto& surface = region.surface;
     if (uv.size() != surface.points().size())
         throw parameter_error("uv", std::to_string(uv.size()) + " places for " +
                                         std::to_string(surface.points().size()) + " vertices; give one per vertex");
     impl::feature_map map = impl::empty_map(uv, resolution, margin);
-    const mat3 to_frame = glm::transpose(part.frame());
+    const mat3 to_frame = glm::transpose(frame());
     std::vector<vec2> corners;
     std::vector<float> positions;
     double area = 0, area_in_map = 0;
@@ -124,7 +124,7 @@ impl::feature_map make_feature_map(queue& q, const feature& part, std::span<cons
         {
             corners.push_back(
                 map.in_texels(uv[static_cast<std::size_t>(surface.cells()[static_cast<std::size_t>(f)][k])]));
-            const vec3 p = to_frame * (x[k] - part.centre);
+            const vec3 p = to_frame * (x[k] - centre);
             positions.insert(positions.end(),
                              {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
         }
@@ -160,7 +160,7 @@ impl::feature_map make_feature_map(queue& q, const feature& part, std::span<cons
     }
     map.values = texels.download();
 
-    impl::measure_round_trip(map, impl::sample(q, map, uv), surface.points(), part);
+    impl::measure_round_trip(map, impl::sample(q, map, uv), surface.points(), *this);
     return map;
 }
 

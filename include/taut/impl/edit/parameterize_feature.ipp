@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+
 #include <taut/impl/edit/attach/laid_feature.hpp>
-#include <taut/impl/edit/parameterize_feature.hpp>
+#include <taut/impl/edit/paste.hpp>
 #include <taut/impl/edit/paste.ipp>
+#include <taut/impl/map/parameterize.hpp>
 
 namespace taut
 {
 
-map_result parameterize_feature(queue& q, const paste& p, std::span<const impl::feature_pin> pins)
+map_result paste::parameterize_feature(queue& q, std::span<const impl::feature_pin> pins) const
 {
-    const auto& region = p.part().region;
-    auto wanted = impl::rim_pins(region, p.rim_uv());
+    const auto& region = part().region;
+    auto wanted = impl::rim_pins(region, rim_uv());
     for (const auto& pin : pins) wanted.pin(pin.vertex, pin.at);
-    return parameterize(q, region.surface, {.constraints = wanted});
+    return taut::parameterize(q, region.surface, {.constraints = wanted});
 }
 
 } // namespace taut

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include <taut/impl/compute/queue.hpp>
@@ -13,13 +15,29 @@
 #include <taut/impl/edit/paste_params.hpp>
 #include <taut/impl/edit/paste_report.hpp>
 #include <taut/impl/edit/similarity_transform.hpp>
+#include <taut/impl/map/map_result.hpp>
 
 namespace taut::impl
 {
 
 class pasted;
 
+/// Pin of a vertex of a feature in the map of the target.
+struct feature_pin
+{
+    idx vertex; ///< of the feature's region
+    vec2 at;
+};
+
 } // namespace taut::impl
+
+namespace taut::io
+{
+
+class atomic_file;
+struct surface_file;
+
+} // namespace taut::io
 
 /// Cut and paste (paper, section 4). The bodies need Eigen, so taut.hpp does not include it.
 namespace taut
@@ -96,6 +114,19 @@ public:
     /// above. Returns false, and keeps the pose, if each has folds.
     bool unfold();
 
+    /// Maps the feature into the map of the target (paper, section 4.1): its rim is pinned to the correspondences of
+    /// the paste, with any other vertices that are named, and the rest is mapped as isometrically as that allows,
+    /// without flips. The rim is a simple polygon, so without other pins there is a map; where these contradict it, the
+    /// outcome is infeasible, and report.ids names the triangles or vertices. Throws constraint_error, device_error.
+    map_result parameterize_feature(queue& q, std::span<const impl::feature_pin> pins = {}) const;
+
+    /// Writes the result as OBJ, with values that read back bit for bit. Triangles of the target keep its texture
+    /// coordinates and those of the feature that of its source, if these have any; vt of the target come first, in
+    /// their order. Triangles of the gap, and those that were split, have none.
+    /// target, source: the files that both were read from. Throws io_error.
+    void write(io::atomic_file& out, const io::surface_file& target, const io::surface_file& source) const;
+    void write(const std::filesystem::path& path, const io::surface_file& target, const io::surface_file& source) const;
+
 private:
     std::unique_ptr<impl::pasted> body_;
 };
@@ -103,6 +134,7 @@ private:
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/edit/parameterize_feature.ipp>
 #include <taut/impl/edit/paste.ipp>
 #include <taut/impl/edit/rbf.ipp>
 #endif

@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include <taut/impl/edit/feature_map.hpp>
 #include <taut/impl/edit/paste_error.hpp>
 #include <taut/impl/edit/surface/feature_refinement.hpp>
 #include <taut/impl/edit/surface/polygon_filling.hpp>
-#include <taut/impl/edit/tessellate.hpp>
 
 namespace taut::impl
 {
@@ -90,10 +91,10 @@ inline std::vector<map_cell> split_cells(queue& q, const feature_map& map, std::
 namespace taut
 {
 
-feature tessellate(queue& q, const feature& part, const impl::feature_map& map, std::span<const vec2> uv, idx triangles)
+feature feature::tessellate(queue& q, const impl::feature_map& map, std::span<const vec2> uv, idx triangles) const
 {
     if (triangles < 1) throw parameter_error("triangles", "must be positive");
-    const auto& rim = part.region.rim;
+    const auto& rim = region.rim;
     std::vector<vec2> polygon;
     std::vector<idx> loop;
     for (const idx v : rim)
@@ -107,7 +108,7 @@ feature tessellate(queue& q, const feature& part, const impl::feature_map& map, 
     impl::plane_triangulation plane(polygon, std::move(filling));
 
     std::vector<vec3> points;
-    for (const idx v : rim) points.push_back(part.region.surface.points()[static_cast<std::size_t>(v)]);
+    for (const idx v : rim) points.push_back(region.surface.points()[static_cast<std::size_t>(v)]);
     const auto wanted = static_cast<std::size_t>(std::max<idx>(0, (triangles - static_cast<idx>(rim.size())) / 2));
     const double tolerance = 0.25 * map.footprint;
     std::vector<vec2> middles;
@@ -116,18 +117,18 @@ feature tessellate(queue& q, const feature& part, const impl::feature_map& map, 
         const vec2 p = map.low + map.texel * c.middle();
         if (impl::distance_from(polygon, p) > 0.4 * c.size * map.texel) middles.push_back(p);
     }
-    impl::feature_refinement refine(part.region.surface, uv, tolerance);
-    const mat3 frame = part.frame();
+    impl::feature_refinement refine(region.surface, uv, tolerance);
+    const mat3 axes = frame();
     const auto sampled = impl::sample(q, map, middles);
     for (std::size_t i = 0; i < middles.size(); ++i)
     {
-        const vec3 p = part.centre + frame * sampled[i];
+        const vec3 p = centre + axes * sampled[i];
         if (refine.distance(p) <= tolerance && plane.insert(middles[i])) points.push_back(p);
     }
     refine(plane, points, rim.size() + wanted);
 
     std::vector<idx> vertices(points.size(), -1);
-    for (std::size_t i = 0; i < rim.size(); ++i) vertices[i] = part.region.vertices[static_cast<std::size_t>(rim[i])];
+    for (std::size_t i = 0; i < rim.size(); ++i) vertices[i] = region.vertices[static_cast<std::size_t>(rim[i])];
     std::vector<idx> faces(plane.triangles().size(), -1);
     return feature(
         {mesh<triangle>(std::move(points), plane.triangles()), std::move(vertices), std::move(faces), std::move(loop)});

@@ -39,17 +39,14 @@ private:
 
 } // namespace taut::io::impl
 
-namespace taut::io
+namespace taut::impl
 {
 
-/// Encodes a feature map as an OpenEXR file, and returns its bytes: R, G, B are x, y, z in the frame of the base as
-/// 32-bit floats, A is 1 where a triangle covers a texel and 0 elsewhere. Scan lines, not compressed, the first row of
-/// the map at the bottom.
-inline std::string exr_of(const taut::impl::feature_map& map)
+inline std::string feature_map::exr() const
 {
     constexpr std::string_view channels = "ABGR"; // in the order of their names, as the format wants them
-    const auto right = static_cast<std::uint64_t>(map.width - 1), bottom = static_cast<std::uint64_t>(map.height - 1);
-    impl::exr_text out;
+    const auto right = static_cast<std::uint64_t>(width - 1), bottom = static_cast<std::uint64_t>(height - 1);
+    io::impl::exr_text out;
     out.number(20000630, 4); // what an OpenEXR file begins with
     out.number(2, 4);        // version, scan lines
     out.attribute("channels", "chlist", 18 * channels.size() + 1);
@@ -83,22 +80,22 @@ inline std::string exr_of(const taut::impl::feature_map& map)
     out.real(1);
     out.number(0, 1);
 
-    const std::size_t width = static_cast<std::size_t>(map.width), height = static_cast<std::size_t>(map.height);
-    const std::size_t line = 4 * channels.size() * width, first = out.size() + 8 * height;
-    for (std::size_t j = 0; j < height; ++j) out.number(first + j * (line + 8), 8);
-    for (std::size_t j = 0; j < height; ++j)
+    const std::size_t columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+    const std::size_t line = 4 * channels.size() * columns, first = out.size() + 8 * rows;
+    for (std::size_t j = 0; j < rows; ++j) out.number(first + j * (line + 8), 8);
+    for (std::size_t j = 0; j < rows; ++j)
     {
-        const float* const row = &map.values[4 * width * (height - 1 - j)];
+        const float* const texels = &values[4 * columns * (rows - 1 - j)];
         out.number(j, 4);
         out.number(line, 4);
         for (std::size_t channel : {3, 2, 1, 0})
-            for (std::size_t i = 0; i < width; ++i)
+            for (std::size_t i = 0; i < columns; ++i)
             {
-                const float value = row[4 * i + channel];
+                const float value = texels[4 * i + channel];
                 out.real(channel == 3 && value < 0 ? 0 : value);
             }
     }
     return out.take();
 }
 
-} // namespace taut::io
+} // namespace taut::impl

@@ -22,18 +22,20 @@ namespace taut
 /// An energy may exist for triangles, for tetrahedra or for both; calling it in a dimension that it does not have
 /// throws parameter_error. One for triangles alone takes element<T, 2>; one that takes element<T, D> is compiled for D
 /// = 2 and 3, and its errors in one of them are reported from call() below.
+///
+/// Numbers that it reads as e.parameter(k) come along: {cloth{}, {0.5}}. They are arguments of its kernels: changing
+/// them needs no new kernel.
 class any_energy
 {
 public:
     template <class E>
-        requires(!std::same_as<std::remove_cvref_t<E>, any_energy>)
-    &&(energy::impl::energy_function<E, 2> || energy::impl::energy_function<E, 3>)any_energy(E e)
-        : model_(std::make_shared<model<E>>(std::move(e)))
+        requires(!std::same_as<std::remove_cvref_t<E>, any_energy> && energy::impl::energy_of_some_dimension<E>)
+    any_energy(E e, std::vector<double> parameters = {})
+        : model_(std::make_shared<model<E>>(std::move(e))), parameters_(std::move(parameters))
     {
     }
 
-    /// Returns the energy with parameters that it reads as e.parameter(k). They are arguments of its kernels: changing
-    /// them needs no new kernel.
+    /// Returns the energy with other parameters.
     any_energy with_parameters(std::vector<double> parameters) const
     {
         any_energy e = *this;

@@ -60,6 +60,9 @@ concept energy_function = requires(const E& e, const element<double, D>& x)
         } -> std::convertible_to<bool>;
 };
 
+template <class E>
+concept energy_of_some_dimension = energy_function<E, 2> || energy_function<E, 3>;
+
 } // namespace taut::energy::impl
 
 namespace taut::energy

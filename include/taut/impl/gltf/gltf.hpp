@@ -43,6 +43,27 @@ struct gltf_model
     std::vector<std::array<idx, 3>> texcoord_cells; ///< one triple per triangle, into texcoords; -1: none
     std::vector<std::string> notes;                 ///< changes in reading or making it, in sentences
     impl::gltf_source source;                       ///< the file
+
+    gltf_model() = default;
+
+    /// Makes a new document of a surface, to be written with texture coordinates: one mesh, points as floats in their
+    /// order, normals weighted by area, and an attribute _SOURCE_VERTEX that tells the point of each vertex: two
+    /// unsigned shorts, the lower and the upper 16 bits of its number. Triangles keep their numbers; one with a missing
+    /// or non-finite point draws nothing.
+    ///
+    /// Points farther from 0 than the surface is large, or where floats end, are relative to a node with a translation,
+    /// and a scale if need be, which are doubles: rounding moves nothing by more than 2e-7 of its size. A note counts
+    /// triangles that have no area in floats all the same. Throws mesh_error (empty).
+    gltf_model(std::span<const vec3> surface_points, std::span<const std::array<idx, 3>> surface_triangles);
+
+    /// Rounds texture coordinates to the numbers of a file, which are read back bit for bit. Certify these rather than
+    /// the unrounded ones.
+    static vec2 rounded(vec2 uv, numbers as = numbers::floats);
+
+    /// Writes the model with new texture coordinates; its files appear together or not at all.
+    /// corner_uv: one per corner of triangles, v downwards. Throws io_error, parameter_error.
+    void write(const std::filesystem::path& path, std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
+               numbers as = numbers::floats) const;
 };
 
 /// Returns whether a file name ends in .gltf or .glb, in either case.
@@ -62,30 +83,6 @@ namespace taut::io::impl
 
 /// The same from memory; path: named in errors, and where external buffers are looked for.
 gltf_model parse_gltf(std::string_view bytes, const std::string& path = "glTF file", int texcoord_set = 0);
-
-} // namespace taut::io::impl
-
-namespace taut::io
-{
-
-/// Makes a new glTF document of a surface, to be written with texture coordinates: one mesh, points as floats in their
-/// order, normals weighted by area, and an attribute _SOURCE_VERTEX that tells the point of each vertex: two unsigned
-/// shorts, the lower and the upper 16 bits of its number. Triangles keep their numbers; one with a missing or
-/// non-finite point draws nothing.
-///
-/// Points farther from 0 than the surface is large, or where floats end, are relative to a node with a translation, and
-/// a scale if need be, which are doubles: rounding moves nothing by more than 2e-7 of its size. A note counts triangles
-/// that have no area in floats all the same. Throws mesh_error (empty).
-gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles);
-
-/// Rounds texture coordinates to the numbers of a glTF file, which are read back bit for bit. Certify these rather than
-/// the unrounded ones.
-vec2 texcoord_in_gltf(vec2 uv, gltf_model::numbers numbers = gltf_model::numbers::floats);
-
-} // namespace taut::io
-
-namespace taut::io::impl
-{
 
 /// The files that hold the buffers of the document at a path; none of a .glb, or where they cannot be told.
 std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& path);
@@ -115,16 +112,6 @@ std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const g
                                       gltf_model::numbers numbers = gltf_model::numbers::floats);
 
 } // namespace taut::io::impl
-
-namespace taut::io
-{
-
-/// Writes a model with new texture coordinates; its files appear together or not at all.
-void write_gltf(const std::filesystem::path& path, const gltf_model& model,
-                std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,
-                gltf_model::numbers numbers = gltf_model::numbers::floats);
-
-} // namespace taut::io
 
 #ifdef TAUT_IMPLEMENTATION
 #include <taut/impl/gltf/read_gltf.ipp>

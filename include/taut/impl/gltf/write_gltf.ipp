@@ -50,7 +50,7 @@ public:
         for (std::size_t t = 0; t < stored.size(); ++t)
             for (std::size_t k = 0; k < 3; ++k)
             {
-                const vec2 x = texcoord_in_gltf(corner_uv[t][k], numbers);
+                const vec2 x = gltf_model::rounded(corner_uv[t][k], numbers);
                 stored[t][k] = {x.x, x.y};
             }
         split_ = split_vertices(primitives_, model.vertices, stored);
@@ -200,9 +200,9 @@ inline file_to_write file_of(const std::filesystem::path& path, std::string byte
 namespace taut::io
 {
 
-vec2 texcoord_in_gltf(vec2 uv, gltf_model::numbers numbers)
+vec2 gltf_model::rounded(vec2 uv, numbers as)
 {
-    if (numbers == gltf_model::numbers::floats) return {taut::impl::in_single(uv.x), taut::impl::in_single(uv.y)};
+    if (as == numbers::floats) return {taut::impl::in_single(uv.x), taut::impl::in_single(uv.y)};
     const auto fraction = [](double x) { return std::round(std::clamp(x, 0.0, 1.0) * 65535) / 65535; };
     return {fraction(uv.x), fraction(uv.y)};
 }
@@ -270,37 +270,36 @@ std::vector<file_to_write> gltf_files(const std::filesystem::path& path, const g
 namespace taut::io
 {
 
-void write_gltf(const std::filesystem::path& path, const gltf_model& model,
-                std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set, gltf_model::numbers numbers)
+void gltf_model::write(const std::filesystem::path& path, std::span<const std::array<vec2, 3>> corner_uv,
+                       int texcoord_set, numbers as) const
 {
-    write_files(impl::gltf_files(path, model, corner_uv, texcoord_set, numbers));
+    write_files(impl::gltf_files(path, *this, corner_uv, texcoord_set, as));
 }
 
-gltf_model gltf_of(std::span<const vec3> points, std::span<const std::array<idx, 3>> triangles)
+gltf_model::gltf_model(std::span<const vec3> surface_points, std::span<const std::array<idx, 3>> surface_triangles)
 {
-    if (points.empty() || triangles.empty()) throw mesh_error(mesh_error::empty, {}, "there are no triangles");
-    gltf_model model{};
-    model.points.assign(points.begin(), points.end());
+    if (surface_points.empty() || surface_triangles.empty())
+        throw mesh_error(mesh_error::empty, {}, "there are no triangles");
+    points.assign(surface_points.begin(), surface_points.end());
     const auto is_drawn = [&](idx v)
     {
         return v >= 0 && static_cast<std::size_t>(v) < points.size() &&
                taut::impl::finite(points[static_cast<std::size_t>(v)]);
     };
-    for (const auto& t : triangles)
-        model.triangles.push_back(std::all_of(t.begin(), t.end(), is_drawn) ? t : std::array<idx, 3>{});
-    model.vertices = model.triangles;
-    model.meshes.assign(triangles.size(), 0);
-    model.materials.assign(triangles.size(), -1);
+    for (const auto& t : surface_triangles)
+        triangles.push_back(std::all_of(t.begin(), t.end(), is_drawn) ? t : std::array<idx, 3>{});
+    vertices = triangles;
+    meshes.assign(surface_triangles.size(), 0);
+    materials.assign(surface_triangles.size(), -1);
     std::vector<std::array<idx, 3>> drawn;
-    std::copy_if(triangles.begin(), triangles.end(), std::back_inserter(drawn),
+    std::copy_if(surface_triangles.begin(), surface_triangles.end(), std::back_inserter(drawn),
                  [&](const auto& t) { return std::all_of(t.begin(), t.end(), is_drawn); });
     const impl::gltf_placing placing(points, drawn);
-    model.source = impl::new_gltf_source(points, model.triangles, placing.best());
+    source = impl::new_gltf_source(points, triangles, placing.best());
     if (const std::size_t n = placing.collapsed())
-        model.notes.push_back(taut::impl::counted(n, "triangle", "triangles") +
-                              " with an area that single precision, which is all that glTF has, does not hold; "
-                              "write .obj, or split the surface");
-    return model;
+        notes.push_back(taut::impl::counted(n, "triangle", "triangles") +
+                        " with an area that single precision, which is all that glTF has, does not hold; "
+                        "write .obj, or split the surface");
 }
 
 } // namespace taut::io

@@ -91,16 +91,14 @@ inline std::span<const std::array<int, 4>> face_table(cell_kind kind)
 namespace taut::io
 {
 
-/// Computes the faces of all cells and their adjacency. Time O(n log(largest valence)).
-inline impl::cell_faces cell_faces_of(const volume_file& file)
+inline impl::cell_faces volume_file::faces() const
 {
     std::size_t n = 0;
-    for (const auto& block : file.cells)
-        if (impl::shape_of(block.kind).dimension == file.dimension)
-            n += block.size() * impl::face_table(block.kind).size();
+    for (const auto& block : cells)
+        if (impl::shape_of(block.kind).dimension == dimension) n += block.size() * impl::face_table(block.kind).size();
     impl::cell_faces result;
     result.faces.reserve(n);
-    impl::for_each_cell(file, file.dimension,
+    impl::for_each_cell(*this, dimension,
                         [&](cell_kind kind, idx number, std::span<const idx> corners)
                         {
                             for (const auto& side : impl::face_table(kind))
@@ -129,7 +127,7 @@ inline impl::cell_faces cell_faces_of(const volume_file& file)
         return *std::min_element(corners.begin(), corners.end());
     };
     const auto start = taut::impl::counting_sort(
-        n, file.points.size(), smallest,
+        n, points.size(), smallest,
         [&](std::size_t side, std::size_t position)
         {
             auto key = result.faces[side].vertices; // -1 in front when sorted: the smallest corner is left out below
@@ -140,14 +138,14 @@ inline impl::cell_faces cell_faces_of(const volume_file& file)
                                    static_cast<std::uint32_t>(key[3]),
                                quad ? key[1] : -1, static_cast<idx>(side)};
         });
-    taut::impl::parallel_for(file.points.size(),
+    taut::impl::parallel_for(points.size(),
                              [&](std::size_t begin, std::size_t end)
                              {
                                  for (std::size_t v = begin; v < end; ++v)
                                      std::sort(order.begin() + start[v], order.begin() + start[v + 1]);
                              });
     result.twin.assign(n, impl::cell_faces::boundary);
-    for (std::size_t v = 0; v < file.points.size(); ++v)
+    for (std::size_t v = 0; v < points.size(); ++v)
         for (auto first = static_cast<std::size_t>(start[v]), last = first,
                   end = static_cast<std::size_t>(start[v + 1]);
              first < end; first = last)
@@ -198,12 +196,9 @@ inline std::vector<idx> region_numbers(const volume_file& file)
 namespace taut::io
 {
 
-/// Facets that smoothing preserves: sides between cells of different labels, references or regions, inner ones with a
-/// labelled face of the file (in the plane a line), and, if `boundary`, the sides of the boundary. A piece has the same
-/// labels on both sides and on its faces.
-inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, bool boundary)
+inline std::vector<taut::impl::kept_facet> volume_file::kept_facets(bool boundary) const
 {
-    const auto numbers = impl::region_numbers(file);
+    const auto numbers = impl::region_numbers(*this);
     const auto key_of = [](std::span<const idx> corners)
     {
         std::array<idx, 4> key{-1, -1, -1, -1};
@@ -212,19 +207,19 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
         return key;
     };
     std::vector<idx> regions;
-    std::map<std::array<idx, 4>, idx> faces;
+    std::map<std::array<idx, 4>, idx> labels_of_faces;
     std::size_t number = 0;
-    for (const auto& block : file.cells)
+    for (const auto& block : cells)
         for (std::size_t c = 0; c < block.size(); ++c, ++number)
-            if (impl::shape_of(block.kind).dimension == file.dimension)
+            if (impl::shape_of(block.kind).dimension == dimension)
                 regions.push_back(numbers[number]);
-            else if (impl::shape_of(block.kind).dimension == file.dimension - 1)
+            else if (impl::shape_of(block.kind).dimension == dimension - 1)
             {
-                auto& label = faces[key_of(block.cell(c))]; // of copies, that of one that has any
+                auto& label = labels_of_faces[key_of(block.cell(c))]; // of copies, that of one that has any
                 label = label == 0 ? numbers[number] : label;
             }
 
-    const auto sides = cell_faces_of(file);
+    const auto sides = this->faces();
     std::vector<taut::impl::kept_facet> kept;
     std::map<std::array<idx, 3>, idx> pieces;
     for (std::size_t s = 0; s < sides.faces.size(); ++s)
@@ -232,8 +227,8 @@ inline std::vector<taut::impl::kept_facet> kept_facets(const volume_file& file, 
         const auto& side = sides.faces[s];
         const idx twin = sides.twin[s];
         if (twin < 0 ? !boundary || twin == impl::cell_faces::non_manifold : twin < static_cast<idx>(s)) continue;
-        const auto face = faces.find(key_of(side.corners()));
-        const idx label = face != faces.end() ? face->second : 0;
+        const auto face = labels_of_faces.find(key_of(side.corners()));
+        const idx label = face != labels_of_faces.end() ? face->second : 0;
         const idx here = regions[static_cast<std::size_t>(side.cell)];
         const idx there =
             twin < 0 ? -1 : regions[static_cast<std::size_t>(sides.faces[static_cast<std::size_t>(twin)].cell)];
@@ -255,7 +250,7 @@ namespace taut::io::impl
 /// more share (non_manifold_facet), each with all of its kind. Cells count as for_each_cell() does.
 inline std::vector<taut::impl::mesh_finding> check_sides(const volume_file& file)
 {
-    const auto sides = cell_faces_of(file);
+    const auto sides = file.faces();
     const auto twin_cell = [&](std::size_t s) { return sides.faces[static_cast<std::size_t>(sides.twin[s])].cell; };
     std::vector<idx> copies, clashing, non_manifold;
     std::vector<std::array<idx, 4>> told;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <taut/impl/io/surface_file.hpp>
 #include <vector>
 
@@ -19,11 +18,6 @@ struct cut_surface
     std::vector<idx> corners;      ///< the vertex of each corner of file_faces
     std::size_t seam_vertices = 0; ///< vertices of the file that lie on a seam
 };
-
-/// Cuts a surface open along the edges where the texture coordinates of neighbours disagree in value; many programs
-/// write one vt per corner. Nothing if every vertex has one texture coordinate.
-/// Throws texcoord_error if a corner has none.
-std::optional<cut_surface> cut_seams(const surface_file& file);
 
 } // namespace taut::io
 

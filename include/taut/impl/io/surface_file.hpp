@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -88,6 +89,9 @@ struct file_vertices
 namespace taut::io
 {
 
+class atomic_file;
+struct cut_surface;
+
 /// Content of a surface file. Vertices and faces are in the order of the file, unreferenced vertices included.
 struct surface_file
 {
@@ -136,6 +140,18 @@ struct surface_file
             }
         return result;
     }
+
+    /// Writes the file with new positions of its vertices, which read back bit for bit. Of OBJ every byte stays but the
+    /// coordinates of v lines, also the normals, which are those at rest; OFF and PLY become OBJ with their vertices,
+    /// colours and polygons.
+    /// points: one per vertex. Throws io_error; parameter_error if there are more or fewer.
+    void write(atomic_file& out, std::span<const vec3> points) const;
+    void write(const std::filesystem::path& path, std::span<const vec3> points) const;
+
+    /// Cuts the surface open along the edges where the texture coordinates of neighbours disagree in value; many
+    /// programs write one vt per corner. Nothing if every vertex has one texture coordinate.
+    /// Throws texcoord_error if a corner has none.
+    std::optional<cut_surface> cut_seams() const;
 };
 
 /// Content of a surface file without validation: triangles may name vertices that do not exist, or one twice,

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,13 @@
 #include <taut/impl/core/error.hpp>
 #include <taut/impl/io/coding/array_code.hpp>
 #include <taut/impl/mesh/mesh.hpp>
+
+namespace taut::impl
+{
+
+struct kept_facet;
+
+} // namespace taut::impl
 
 namespace taut::io
 {
@@ -197,6 +205,8 @@ struct corner_simplices
     std::vector<double> weights; ///< weight of each, so that a cell counts once; exact for parallelepipeds
 };
 
+struct cell_faces;
+
 } // namespace taut::io::impl
 
 namespace taut::io
@@ -246,6 +256,23 @@ struct volume_file
 
     /// The group of a name. A number alone finds the one group whose name ends in ":" and it. Throws group_error.
     const impl::volume_group& find_group(std::string_view name) const;
+
+    /// Faces of all cells and their adjacency. Time O(n log(largest valence)).
+    impl::cell_faces faces() const;
+
+    /// Facets that smoothing preserves, for smooth_params::kept: sides between cells of different labels, references or
+    /// regions, inner ones with a labelled face of the file (in the plane a line), and, if `boundary`, the sides of the
+    /// boundary. A piece has the same labels on both sides and on its faces.
+    std::vector<taut::impl::kept_facet> kept_facets(bool boundary) const;
+
+    /// Points as the file holds them, or as readers may: rounded to single where it declares that, else as they are.
+    /// Text itself holds every digit in any case.
+    /// x: one per point of the file.
+    std::vector<vec3> rounded(std::span<const vec3> x) const;
+
+    /// Writes the file with new positions of its points; its files appear together or not at all. Throws io_error,
+    /// parameter_error.
+    void write(const std::filesystem::path& to, std::span<const vec3> x) const;
 };
 
 } // namespace taut::io

@@ -20,7 +20,7 @@ void write_obj(atomic_file& out, const mesh<triangle>& surface, std::span<const 
 /// uv: one per vertex. Throws io_error; parameter_error if uv has another size.
 void write_obj(atomic_file& out, const surface_file& file, std::span<const vec2> uv);
 
-/// The same for a map of the surface cut open, which `cut` was made from `file` by cut_seams().
+/// The same for a map of the surface cut open, which `cut` was made by file.cut_seams().
 /// uv: one per vertex of cut.surface.
 void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cut, std::span<const vec2> uv);
 
@@ -29,12 +29,6 @@ void write_obj(atomic_file& out, const surface_file& file, const cut_surface& cu
 /// texcoords: one per corner of file.faces, an index into uv; -1: none. Throws io_error; parameter_error if there are
 /// more or fewer, or one names what is not there.
 void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> texcoords, std::span<const vec2> uv);
-
-/// Writes the file that a surface was read from with new positions of its vertices, which read back bit for bit. Of OBJ
-/// every byte stays but the coordinates of v lines, also the normals, which are those at rest; OFF and PLY become OBJ
-/// with their vertices, colours and polygons.
-/// points: one per vertex. Throws io_error; parameter_error if there are more or fewer.
-void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points);
 
 /// Any of these to a file of its own, which appears complete or not at all.
 template <class... Content>

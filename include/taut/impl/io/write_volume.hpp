@@ -10,16 +10,6 @@
 #include <taut/impl/io/write_files.hpp>
 #include <taut/impl/mesh/refine_elements.hpp>
 
-namespace taut::io
-{
-
-/// Rounds points to the precision that the file declares, as readers may: to single where it does, else not at all.
-/// Text itself holds every digit in any case.
-/// points: one per point of the file.
-std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points);
-
-} // namespace taut::io
-
 namespace taut::io::impl
 {
 
@@ -35,20 +25,6 @@ std::string with_points(const volume_file& file, std::span<const vec3> points);
 /// Throws parameter_error as with_points(); io_error where an output is an input, or the extension another format's.
 std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, const volume_file& file,
                                           std::span<const vec3> points);
-
-} // namespace taut::io::impl
-
-namespace taut::io
-{
-
-/// Writes a volume file with new positions of its points; files appear together or not at all. Throws io_error,
-/// parameter_error.
-void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points);
-
-} // namespace taut::io
-
-namespace taut::io::impl
-{
 
 /// The file with cells subdivided, as its own format has it, written anew as text: `bytes` and all else as a reader of
 /// that finds it, `path` as it was, `rest` subdivided, too. Points come first as they were, and parts of a cell follow

@@ -124,9 +124,9 @@ inline taut::observer observer_of(const map_run& run, const run_start& start, st
 inline solve::params limited(const map_run& run, int max_iterations)
 {
     auto p = run.params.solve;
-    if (p.stopping.tuning.base == 0)
-        p.stopping.tuning.base = energy::rest_value<triangle::dimension>(run.params.energy);
-    p.stopping.max_iterations = max_iterations;
+    if (p.tuning.stopping.base == 0)
+        p.tuning.stopping.base = energy::rest_value<triangle::dimension>(run.params.energy);
+    p.max_iterations = max_iterations;
     return p;
 }
 
@@ -178,7 +178,7 @@ inline attempt attempt_on_mesh(const map_run& run, const run_start& start, preci
 inline nested_params descent_of(const map_run& run)
 {
     nested_params p;
-    if (!run.iterates()) p.stopping.max_iterations = 0;
+    if (!run.iterates()) p.solve.max_iterations = 0;
     p.start.boundary = run.params.barycentric().boundary;
     p.start.fixed_boundary = run.params.boundary != boundary_mode::free;
     p.start.proceed = [&run] { return run.clock.proceed(); };
@@ -279,17 +279,17 @@ inline attempt attempt_in_turns(const map_run& run, const run_start& start)
         return run.levels ? attempt_on_levels(run, start, how, max_iterations, from)
                           : attempt_on_mesh(run, start, how, max_iterations);
     };
-    const auto& stopping = run.params.solve.stopping;
+    const auto& asked = run.params.solve;
     const bool chosen = run.params.precision == precision::automatic;
     const precision how = run.first_precision();
-    attempt first = once(how, stopping.max_iterations, {});
-    if (first.certified && (!chosen || accurate(first.solve, stopping.gradient_tolerance))) return first;
+    attempt first = once(how, asked.max_iterations, {});
+    if (first.certified && (!chosen || accurate(first.solve, asked.gradient_tolerance))) return first;
     if (first.stopped || how == precision::fp64 || !run.queue.device().has_fp64()) return first;
 
-    const int left = stopping.max_iterations - first.solve.iterations;
+    const int left = asked.max_iterations - first.solve.iterations;
     if (first.certified && left == 0) return first;
-    attempt next = first.certified ? once(precision::fp64, left, first.arrival)
-                                   : once(precision::fp64, stopping.max_iterations, {});
+    attempt next =
+        first.certified ? once(precision::fp64, left, first.arrival) : once(precision::fp64, asked.max_iterations, {});
     next.notes.push_back(first.certified ? "float could not reach the tolerance; continued in double"
                                          : "single precision does not suffice for this map; repeated in double");
     if (!next.descent) next.descent = std::move(first.descent);

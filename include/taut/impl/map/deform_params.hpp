@@ -7,7 +7,6 @@
 #include <taut/impl/constrain/slide.hpp>
 #include <taut/impl/energy/any_energy.hpp>
 #include <taut/impl/mesh/cell_data.hpp>
-#include <taut/impl/mesh/target_shapes.hpp>
 #include <taut/impl/objective/precision.hpp>
 #include <taut/impl/solve/params.hpp>
 
@@ -20,7 +19,8 @@ struct deform_params
 {
     static constexpr int D = Element::dimension;
 
-    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts, alone or with parameters, as {cloth{}, {0.5}}; so do sums and
+    /// products of energies.
     any_energy energy = impl::default_energy();
 
     /// Weights of elements in the sum: rest measure, as is usual, or all equal.
@@ -29,21 +29,15 @@ struct deform_params
     /// Data of single elements that energies read, in the order of the mesh.
     cell_data data = {};
 
-    /// Numbers that the energy reads as e.parameter(k): changing them needs no new kernel.
-    std::vector<double> parameters = {};
-
     /// Pins, which are met bit for bit, and springs.
     taut::constraints<Element> constraints = {};
 
-    /// Rest shape, of zero energy, one position per vertex, if it is not that of the mesh. Its elements are positive.
-    std::vector<vec3> rest = {};
-
-    /// Target shapes: `regular` elements, of the mean size, have no rest shape.
-    target_shapes shapes = target_shapes::rest;
+    /// True if the target shape of elements is a regular one, of the mean size, and the mesh has no rest shape.
+    bool regular = false;
 
     /// Target shapes of single elements: the edges of each from its corner 0, as columns, up to a rotation. Empty, or
-    /// one per element, none of them inverted. With target_shapes::rest in the lengths of the mesh, in the place of the
-    /// elements at rest; with target_shapes::regular in place of regular ones, all scaled to the size of the mesh.
+    /// one per element, none of them inverted. They are in the lengths of the mesh, in the place of the elements at
+    /// rest; in the place of `regular` ones all are scaled to the size of the mesh.
     std::vector<mat<D>> targets = {};
 
     /// Owners of simplices that are the corners of cells of other kinds, and overlap (mesh/cell_corners.hpp).
@@ -53,7 +47,7 @@ struct deform_params
     /// Sliding constraints, at most one per vertex, none of a vertex with a pinned coordinate.
     std::vector<slide<D>> slides = {};
 
-    /// Initial shape, if it is not that of the mesh: of the last step, say.
+    /// Initial shape, if it is not that of the mesh, which is the one at rest: of the last step, say.
     std::vector<vec<D>> initial = {};
 
     taut::precision precision = precision::automatic;

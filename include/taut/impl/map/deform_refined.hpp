@@ -57,7 +57,6 @@ impl::refined_deformation<Element> deform(queue& q, const mesh<Element>& m, defo
     params.constraints = params.constraints.on(found.refined);
     if (!params.initial.empty())
         params.initial = found.how.extended(std::span<const vec<Element::dimension>>(params.initial));
-    if (!params.rest.empty()) params.rest = found.how.extended(std::span<const vec3>(params.rest));
     found.result = deform(q, found.refined, params, limits);
     return found;
 }

@@ -26,8 +26,8 @@ public:
     static constexpr int D = Element::dimension;
     using shape = std::vector<vec<D>>;
 
-    /// from: the mesh, in its first shape. to: the second shape, one position per vertex. Of params, `rest`,
-    /// `targets`, `initial` and `shapes` are overruled. limits: of each call of at().
+    /// from: the mesh, in its first shape. to: the second shape, one position per vertex. Of params, `targets`,
+    /// `initial` and `regular` are overruled. limits: of each call of at().
     /// Throws mesh_error where the first shape has inverted or flat elements, parameter_error where the other one has.
     interpolation(const mesh<Element>& from, shape to, deform_params<Element> params = {}, run_limits limits = {})
         : from_(from),
@@ -36,8 +36,7 @@ public:
           limits_(std::move(limits)),
           path_(from, to_)
     {
-        params_.rest.clear();
-        params_.shapes = target_shapes::rest;
+        params_.regular = false;
     }
 
     /// Computes the shape at t: the two shapes, bit for bit, at 0 and 1. Without pins the middle of each component

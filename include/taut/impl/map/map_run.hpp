@@ -61,7 +61,7 @@ struct map_run
     bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
 
     /// Without iterations the start is returned as it is.
-    bool iterates() const { return params.solve.stopping.max_iterations > 0; }
+    bool iterates() const { return params.solve.max_iterations > 0; }
 
     /// The precision of the first attempt.
     taut::precision first_precision() const

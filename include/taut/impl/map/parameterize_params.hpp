@@ -37,7 +37,8 @@ enum class start_method
 /// Parameters of parameterize(). Every field has a sensible default.
 struct parameterize_params
 {
-    /// Energy to be minimised. A user's struct converts; so do sums and products of energies.
+    /// Energy to be minimised. A user's struct converts, alone or with parameters, as {cloth{}, {0.5}}; so do sums and
+    /// products of energies.
     any_energy energy = impl::default_energy();
 
     /// Weights of elements in the sum: rest area, as is usual, or all equal, as in the paper.
@@ -45,9 +46,6 @@ struct parameterize_params
 
     /// Data of single triangles that energies read, in the order of the mesh: weights, attributes, directions.
     cell_data data = {};
-
-    /// Numbers that the energy reads as e.parameter(k): changing them needs no new kernel.
-    std::vector<double> parameters = {};
 
     boundary_mode boundary = boundary_mode::free;
 
@@ -88,9 +86,9 @@ struct parameterize_params
     /// Newton's method always is.
     bool multigrid = false;
 
-    /// Solver parameters: method, line search (except of Newton's method, which is the `automatic` one here), stopping.
-    /// With stopping parameters given as a whole (`.stopping = {...}`), a run that has only settled goes on.
-    solve::params solve = {.stopping = {.settled_tolerance = 1e-4}};
+    /// Method, line search (except of Newton's method, which is the `automatic` one here), tolerances. Where they are
+    /// given as a whole (`.solve = {...}`), a run that has only settled goes on.
+    solve::params solve = {.tuning = {.stopping = {.settled_tolerance = 1e-4}}};
 
     /// Not for users: what tests and measurements set.
     impl::map_tuning tuning = {};

@@ -161,7 +161,7 @@ private:
     /// short step, which they have not followed yet, the stiffness is kept.
     void draw(level& finest, run_start& start)
     {
-        const solve::params step{.method = solve::method::newton, .stopping = {.max_iterations = 1}};
+        const solve::params step{.method = solve::method::newton, .max_iterations = 1};
         solve::report steps; // of all springs, one after the other
         bool moves = true;
         int strides = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -24,10 +25,7 @@ struct smooth_params
 {
     smooth_boundary boundary = smooth_boundary::sliding;
 
-    /// Target shapes of elements: regular, or as in `rest`.
-    target_shapes shapes = target_shapes::regular;
-
-    /// Rest shape for target_shapes::rest, one position per vertex; none: that of the mesh.
+    /// Shape whose elements are the target shapes, one position per vertex; empty: regular elements are.
     std::vector<vec3> rest = {};
 
     /// Target shapes of single elements, and their owners, as in deform_params: those of corner_simplices::regular
@@ -43,12 +41,12 @@ struct smooth_params
     std::vector<idx> fixed = {};
 
     /// Facets, inside or on the boundary, of surfaces that keep their shape whatever the boundary does: interfaces
-    /// between materials, named pieces of the boundary (io::kept_facets() finds them). Flat pieces slide in their
-    /// planes, straight lines where pieces meet or end along themselves; curved parts are fixed.
+    /// between materials, named pieces of the boundary (io::volume_file::kept_facets() finds them). Flat pieces slide
+    /// in their planes, straight lines where pieces meet or end along themselves; curved parts are fixed.
     std::vector<impl::kept_facet> kept = {};
 
     taut::precision precision = precision::automatic;
-    solve::params solve = {.stopping = {.gradient_tolerance = 1e-4}};
+    solve::params solve = {.gradient_tolerance = 1e-4};
 
     /// Throws parameter_error that names the field; deform_params says the rest.
     void validate() const
@@ -119,10 +117,9 @@ deform_params<Element> smoothing(const smooth_params<Element>& params, int expon
     deform_params<Element> how;
     how.energy = energy::shape_power{params.worst_exponent};
     how.weights = energy::weighting::uniform;
-    how.shapes = params.shapes;
-    how.rest = times_power(params.rest, -exponent);
+    how.regular = params.rest.empty();
     how.targets = params.targets;
-    if (params.shapes == target_shapes::rest)
+    if (!how.regular)
         for (auto& edges : how.targets)
             for (int k = 0; k < Element::dimension; ++k)
                 for (int r = 0; r < Element::dimension; ++r) edges[k][r] = std::ldexp(edges[k][r], -exponent);
@@ -182,6 +179,9 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
     limits.validate();
     if (!params.owners.empty() && params.targets.size() != given.cells().size())
         throw parameter_error("targets", "one matrix a cell where there are owners");
+    if (!params.rest.empty() && params.rest.size() != given.points().size())
+        throw parameter_error("rest", std::to_string(params.rest.size()) + " positions for " +
+                                          std::to_string(given.points().size()) + " vertices");
     using point = vec<Element::dimension>;
     const int exponent = impl::size_exponent(given.points());
     const mesh<Element> m(impl::times_power(given.points(), -exponent), given.cells());
@@ -196,7 +196,14 @@ smooth_result<Element> smooth(queue& q, const mesh<Element>& given, const smooth
                                      : measure_shapes<Element>(m.cells(), x, params.owners, params.targets);
     };
     result.before = measured(start);
-    auto found = deform(q, m, how, {limits.time_limit, impl::in_own_size<Element>(limits.observer, exponent)});
+    std::optional<mesh<Element>> other; // at rest, which starts as m
+    if (!params.rest.empty())
+    {
+        other.emplace(impl::times_power(params.rest, -exponent), m.cells());
+        how.initial = start;
+    }
+    auto found =
+        deform(q, other ? *other : m, how, {limits.time_limit, impl::in_own_size<Element>(limits.observer, exponent)});
     if (!found.x.empty()) result.after = measured(found.x);
     auto& report = found.report;
     if (report.outcome == outcome::valid)

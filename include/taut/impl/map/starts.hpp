@@ -92,7 +92,7 @@ inline std::vector<vec2> free_map(const map_run& run, map_solver solve)
 {
     auto params = run.params;
     params.constraints = {};
-    params.solve.stopping.gradient_tolerance = std::max(1e-3, params.solve.stopping.gradient_tolerance);
+    params.solve.gradient_tolerance = std::max(1e-3, params.solve.gradient_tolerance);
     run_clock clock(run.clock.left(),
                     [&run](progress now)
                     {

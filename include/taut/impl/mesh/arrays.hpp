@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/impl/core/error.hpp>
+#include <taut/impl/core/types.hpp>
 
 namespace taut
 {
@@ -58,6 +59,34 @@ public:
         for (std::size_t k = 0; k < row.size(); ++k) std::memcpy(at(i, k), &row[k], sizeof row[k]);
     }
 
+    /// The rows as points.
+    std::vector<vec<K>> points() const requires std::floating_point<value_type>
+    {
+        std::vector<vec<K>> x(rows_);
+        for (std::size_t v = 0; v < x.size(); ++v)
+        {
+            const row_type row = (*this)[v];
+            for (int k = 0; k < K; ++k) x[v][k] = static_cast<double>(row[static_cast<std::size_t>(k)]);
+        }
+        return x;
+    }
+
+    /// Stores points in the rows, rounded to their type; a map that is certified in double may fold where it is rounded
+    /// to float, so certify<D>(cells, rows.points()) tells whether what was stored did. Throws parameter_error for
+    /// another number of points.
+    void store(std::span<const vec<K>> x) const requires std::floating_point<T>
+    {
+        if (rows_ != x.size())
+            throw parameter_error("rows", std::to_string(rows_) + " rows for " + std::to_string(x.size()) +
+                                              " points; give one per point");
+        for (std::size_t v = 0; v < x.size(); ++v)
+        {
+            row_type row;
+            for (int k = 0; k < K; ++k) row[static_cast<std::size_t>(k)] = static_cast<T>(x[v][k]);
+            set(v, row);
+        }
+    }
+
 private:
     byte* at(std::size_t i, std::size_t k) const { return first_ + i * stride_ + k * step_; }
 
@@ -77,69 +106,31 @@ idx to_idx(I i)
     return std::in_range<idx>(i) ? static_cast<idx>(i) : std::numeric_limits<idx>::max();
 }
 
-} // namespace taut::impl
-
-namespace taut
+/// Rows of 2 or 3 coordinates as points in space, z = 0 of 2.
+template <class Real, int K>
+std::vector<vec3> points_in_space(const array_view<Real, K>& rows)
 {
-
-/// Makes a mesh of arrays of another program, copied once: points of 3 numbers, or of 2 in the plane z = 0; cells of
-/// 32- or 64-bit, signed or unsigned vertex numbers that count from 0.
-///
-///     auto m = taut::mesh_of<taut::triangle>(taut::array_view<const float, 3>(vertices, n, sizeof(my_vertex)),
-///                                            taut::array_view<const std::uint32_t, 3>(indices, faces));
-///
-/// Throws mesh_error as the constructor of mesh does.
-template <class Element, class Real, int Coordinates, class Index>
-    requires(std::floating_point<std::remove_const_t<Real>>&& std::integral<std::remove_const_t<Index>> &&
-             (Coordinates == 2 || Coordinates == 3))
-mesh<Element> mesh_of(const array_view<Real, Coordinates>& points, const array_view<Index, Element::corners>& cells)
-{
-    std::vector<vec3> x(points.rows(), vec3(0.0));
+    std::vector<vec3> x(rows.rows(), vec3(0.0));
     for (std::size_t v = 0; v < x.size(); ++v)
     {
-        const auto row = points[v];
-        for (int k = 0; k < Coordinates; ++k) x[v][k] = static_cast<double>(row[static_cast<std::size_t>(k)]);
+        const auto row = rows[v];
+        for (int k = 0; k < K; ++k) x[v][k] = static_cast<double>(row[static_cast<std::size_t>(k)]);
     }
-    std::vector<typename mesh<Element>::cell> c(cells.rows());
-    for (std::size_t f = 0; f < c.size(); ++f)
-    {
-        const auto row = cells[f];
-        for (std::size_t k = 0; k < row.size(); ++k) c[f][k] = impl::to_idx(row[k]);
-    }
-    return mesh<Element>(std::move(x), std::move(c));
+    return x;
 }
 
-/// Stores points in rows of the user's, rounded to their type; a map that is certified in double may fold where it is
-/// rounded to float, so certify<D>(cells, points_of(rows)) tells whether what was stored did. Throws parameter_error
-/// for another number of rows.
-template <int D, class Real>
-    requires std::floating_point<Real>
-void store(std::span<const vec<D>> x, const array_view<Real, D>& rows)
+/// Rows of vertex numbers as cells.
+template <class Index, int K>
+std::vector<std::array<idx, static_cast<std::size_t>(K)>> cells_of_rows(const array_view<Index, K>& rows)
 {
-    if (rows.rows() != x.size())
-        throw parameter_error("rows", std::to_string(rows.rows()) + " rows for " + std::to_string(x.size()) +
-                                          " points; give one per point");
-    for (std::size_t v = 0; v < x.size(); ++v)
+    std::vector<std::array<idx, static_cast<std::size_t>(K)>> cells(rows.rows());
+    for (std::size_t c = 0; c < cells.size(); ++c)
     {
-        std::array<Real, static_cast<std::size_t>(D)> row;
-        for (int k = 0; k < D; ++k) row[static_cast<std::size_t>(k)] = static_cast<Real>(x[v][k]);
-        rows.set(v, row);
+        const auto row = rows[c];
+        for (std::size_t k = 0; k < row.size(); ++k) cells[c][k] = to_idx(row[k]);
     }
+    return cells;
 }
-
-/// Reads points from rows of the user's.
-template <int D, class Real>
-    requires std::floating_point<std::remove_const_t<Real>> std::vector<vec<D>>
-    points_of(const array_view<Real, D>& rows)
-    {
-        std::vector<vec<D>> x(rows.rows());
-        for (std::size_t v = 0; v < x.size(); ++v)
-        {
-            const auto row = rows[v];
-            for (int k = 0; k < D; ++k) x[v][k] = static_cast<double>(row[static_cast<std::size_t>(k)]);
-        }
-        return x;
-    }
 
 /// Coordinates of points as packed numbers: D doubles per point, without a copy.
 template <int D>
@@ -149,4 +140,4 @@ std::span<const double> numbers_of(std::span<const vec<D>> x)
     return {x.empty() ? nullptr : &x[0].x, static_cast<std::size_t>(D) * x.size()};
 }
 
-} // namespace taut
+} // namespace taut::impl

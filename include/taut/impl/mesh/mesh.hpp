@@ -4,15 +4,18 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <taut/impl/core/parallel.hpp>
+#include <taut/impl/mesh/arrays.hpp>
 #include <taut/impl/mesh/describe.hpp>
 #include <taut/impl/mesh/tetrahedron.hpp>
 #include <taut/impl/mesh/triangle.hpp>
@@ -47,6 +50,19 @@ public:
 
     /// Makes a mesh. Throws mesh_error: empty, too_large, index_out_of_range, repeated_vertex, non_finite.
     mesh(std::vector<vec3> points, std::vector<cell> cells);
+
+    /// Makes a mesh of arrays of another program, copied once: points of 3 numbers, or of 2 in the plane z = 0; cells
+    /// of 32- or 64-bit, signed or unsigned vertex numbers that count from 0.
+    ///
+    ///     taut::mesh<taut::triangle> m(taut::array_view<const float, 3>(vertices, n, sizeof(my_vertex)),
+    ///                                  taut::array_view<const std::uint32_t, 3>(indices, faces));
+    template <class Real, int Coordinates, class Index>
+        requires(std::floating_point<std::remove_const_t<Real>>&& std::integral<std::remove_const_t<Index>> &&
+                 (Coordinates == 2 || Coordinates == 3))
+    mesh(const array_view<Real, Coordinates>& points, const array_view<Index, corners>& cells)
+        : mesh(impl::points_in_space(points), impl::cells_of_rows(cells))
+    {
+    }
 
     // Both arrays are packed: &points()[0].x is 3 doubles per vertex, cells()[0].data() `corners` 32-bit integers per
     // cell (with GLM as it comes; its aligned types have gaps).

@@ -11,12 +11,11 @@
 namespace taut::impl
 {
 
-/// Parameters of a map or a shape, with data and parameters bound to the user's energy. Throws parameter_error.
+/// Parameters of a map or a shape, with data bound to the user's energy. Throws parameter_error.
 template <class Params>
 Params validated(Params p)
 {
     p.validate();
-    if (!p.parameters.empty()) p.energy = p.energy.with_parameters(p.parameters);
     p.energy = p.energy.with_data(p.data.mean_attributes(), !p.data.directions.empty());
     return p;
 }

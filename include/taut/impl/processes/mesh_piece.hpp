@@ -25,7 +25,7 @@ struct mesh_piece
     /// Empty: each is a cell.
     std::vector<std::int64_t> owners = {};
     std::vector<double> weights = {};                ///< factors of cells in the sum of deform(); empty: all 1
-    std::vector<mat<Element::dimension>> edges = {}; ///< as taut::deform_params::targets, for target_shapes::regular
+    std::vector<mat<Element::dimension>> edges = {}; ///< as taut::deform_params::targets, of `regular` ones
 };
 
 } // namespace taut::dist

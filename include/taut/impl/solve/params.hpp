@@ -30,34 +30,13 @@ struct line_search_params
     void validate() const { tuning.validate(); }
 };
 
-/// Stopping criteria. A tolerance of 0 switches its test off.
+/// Stopping criteria, as in solve::params.
 struct stopping_params
 {
-    /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
-    /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
-    ///
-    /// A gradient is long where f is steep, not where much is left to gain. Newton's method stops, too, where the
-    /// Hessian promises, twice in a row, a decrease of at most 1e-2 gradient_tolerance * |f - base|:
-    /// Newton's decrement, which is the same in all units and scalings (Boyd & Vandenberghe 2004, 9.5).
     double gradient_tolerance = 1e-6;
-
-    /// Stop after two (tuning.decrease_count) decreases in a row of at most decrease_tolerance * |f - base|. A decrease
-    /// along a step that a barrier cut is not counted; one that is lost in rounding is counted only where the gradient
-    /// has reached no new low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop where the
-    /// value, not the point, matters.
     double decrease_tolerance = 1e-14;
-
-    /// Newton's method: stop where five steps in a row, each of which ended at a relative gradient of at most 1e-2,
-    /// have together gained at most settled_tolerance * |f - base|, unless the last one was a full step along a
-    /// definite Hessian, after which the end is near anyway. For long valleys with negligible decrease at their end
-    /// (docs/explanation/numerics.md, "Stopping criteria"). Range [0, 1); off here, on by default in maps of surfaces.
-    double settled_tolerance = 0;
-
-    /// Range >= 0.
     int max_iterations = 10000;
-
-    /// Not for users: what tests and measurements set.
-    impl::stopping_tuning tuning = {};
+    stopping_tuning tuning = {};
 
     void validate() const
     {
@@ -65,11 +44,10 @@ struct stopping_params
         {
             if (!(t >= 0 && t < 1)) throw parameter_error(field, "must be in [0, 1)");
         };
-        fraction(gradient_tolerance, "stopping.gradient_tolerance");
-        fraction(decrease_tolerance, "stopping.decrease_tolerance");
-        fraction(settled_tolerance, "stopping.settled_tolerance");
+        fraction(gradient_tolerance, "gradient_tolerance");
+        fraction(decrease_tolerance, "decrease_tolerance");
         tuning.validate();
-        if (max_iterations < 0) throw parameter_error("stopping.max_iterations", "must not be negative");
+        if (max_iterations < 0) throw parameter_error("max_iterations", "must not be negative");
     }
 };
 
@@ -112,9 +90,9 @@ enum class method
     gradient_descent    ///< steepest descent, for comparison
 };
 
-/// Parameters of minimize(). Nested aggregates with defaults:
+/// Parameters of minimize(). A tolerance of 0 switches its test off.
 ///
-///     minimize(f, x, {.method = method::conjugate_gradient, .stopping = {.gradient_tolerance = 1e-8}});
+///     minimize(f, x, {.method = method::conjugate_gradient, .gradient_tolerance = 1e-8});
 struct params
 {
     solve::method method = solve::method::automatic;
@@ -123,7 +101,22 @@ struct params
     /// where they come together anyway.
     line_search_method line_search{};
 
-    impl::stopping_params stopping = {};
+    /// Stop where |g| <= gradient_tolerance * scale; the scale is the objective's gradient_scale or |g| at the start.
+    /// Range [0, 1). Lower it for results to more digits; below 1e-8 rounding of the gradient may win.
+    ///
+    /// A gradient is long where f is steep, not where much is left to gain. Newton's method stops, too, where the
+    /// Hessian promises, twice in a row, a decrease of at most 1e-2 gradient_tolerance * |f - base|:
+    /// Newton's decrement, which is the same in all units and scalings (Boyd & Vandenberghe 2004, 9.5).
+    double gradient_tolerance = 1e-6;
+
+    /// Stop after two decreases in a row of at most decrease_tolerance * |f - base|. A decrease along a step that a
+    /// barrier cut is not counted; one that is lost in rounding is counted only where the gradient has reached no new
+    /// low for ten steps (three of Newton's method). Range [0, 1). Raise it (1e-6) to stop where the value, not the
+    /// point, matters.
+    double decrease_tolerance = 1e-14;
+
+    /// Range >= 0.
+    int max_iterations = 10000;
 
     /// Not for users: what tests and measurements set.
     impl::tuning tuning = {};
@@ -157,7 +150,7 @@ struct params
     impl::descent_params common() const
     {
         return {.line_search = {line_search, tuning.line},
-                .stopping = stopping,
+                .stopping = {gradient_tolerance, decrease_tolerance, max_iterations, tuning.stopping},
                 .first_length = tuning.first_length,
                 .linearize_after = tuning.linearize_after};
     }

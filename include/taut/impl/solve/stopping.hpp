@@ -95,8 +95,8 @@ private:
         values_[steps_seen_++ % values_.size()] = k.value_before;
         near_ = k.newton && k.gradient <= settled_gradient ? near_ + 1 : 0;
         const double gain = values_[steps_seen_ % values_.size()] - k.value;
-        return params_.settled_tolerance > 0 && near_ >= values_.size() && std::isinf(k.promised) &&
-               gain <= params_.settled_tolerance * std::abs(k.value - params_.tuning.base);
+        return params_.tuning.settled_tolerance > 0 && near_ >= values_.size() && std::isinf(k.promised) &&
+               gain <= params_.tuning.settled_tolerance * std::abs(k.value - params_.tuning.base);
     }
 
     bool small_gradient(double gradient) const { return gradient == 0 || gradient <= params_.gradient_tolerance; }

@@ -116,12 +116,20 @@ struct stopping_tuning
     /// decrease_tolerance. Range >= 1.
     int barrier_count = 10;
 
+    /// Newton's method: stop where five steps in a row, each of which ended at a relative gradient of at most 1e-2,
+    /// have together gained at most settled_tolerance * |f - base|, unless the last one was a full step along a
+    /// definite Hessian, after which the end is near anyway. For long valleys with negligible decrease at their end
+    /// (docs/explanation/numerics.md, "Stopping criteria"). Range [0, 1); off here, on by default in maps of surfaces.
+    double settled_tolerance = 0;
+
     /// Stop after two uncapped steps in a row of at most step_tolerance * the longest step of the run.
     /// Range [0, 1); off by default.
     double step_tolerance = 0;
 
     void validate() const
     {
+        if (!(settled_tolerance >= 0 && settled_tolerance < 1))
+            throw parameter_error("stopping.settled_tolerance", "must be in [0, 1)");
         if (!(step_tolerance >= 0 && step_tolerance < 1))
             throw parameter_error("stopping.step_tolerance", "must be in [0, 1)");
         if (decrease_count < 1) throw parameter_error("stopping.decrease_count", "must be at least 1");
@@ -252,6 +260,7 @@ struct tuning
     line_tuning line = {};
     lbfgs_params lbfgs = {};
     conjugate_gradient_params conjugate_gradient = {};
+    stopping_tuning stopping = {};
     double first_length = 1;       ///< as in descent_params
     double linearize_after = 0.03; ///< as in descent_params
 };

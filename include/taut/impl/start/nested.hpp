@@ -28,10 +28,13 @@ struct nested_params
     std::function<start_map(std::size_t level)> first_map = {};
     /// Springs on a level, in its numbering; their vertices are on all levels, and move by minimisation alone.
     std::function<std::vector<directed_spring<2>>(std::size_t level)> springs = {};
-    /// Stopping criteria of a level. `base` is set to the energy at rest, so that nearly developable surfaces are
+    /// Solver of a level. `base` is set to the energy at rest, so that nearly developable surfaces are
     /// solved to enough digits.
-    solve::impl::stopping_params stopping = {
-        .gradient_tolerance = 1e-6, .decrease_tolerance = 5e-3, .max_iterations = 100, .tuning = {.decrease_count = 1}};
+    solve::params solve = {.method = solve::method::newton,
+                           .gradient_tolerance = 1e-6,
+                           .decrease_tolerance = 5e-3,
+                           .max_iterations = 100,
+                           .tuning = {.stopping = {.decrease_count = 1}}};
     /// Number of consecutive small decreases that end a level of at most so many vertices: iterations are cheap there,
     /// and extreme shapes (long tubes) pause.
     std::size_t small_vertices = 4000;
@@ -49,7 +52,7 @@ struct nested_params
     {
         nested_params p = *this;
         p.hard_from = 0;
-        p.stopping.decrease_tolerance = patient_decrease;
+        p.solve.decrease_tolerance = patient_decrease;
         p.small_decrease_count = 1; // no pause is taken for an end at that tolerance
         return p;
     }
@@ -74,7 +77,7 @@ public:
     nested_iteration(const mesh_levels<triangle>& levels, level_solver<triangle>& solver, nested_params params)
         : levels_(levels), solver_(solver), params_(std::move(params))
     {
-        params_.stopping.tuning.base = solver.energy_at_rest();
+        params_.solve.tuning.stopping.base = solver.energy_at_rest();
     }
 
     /// Computes a map of the finest level, minimised down to level 1, in the numbering of level 0; empty where it
@@ -123,7 +126,7 @@ public:
 private:
     bool is_hard(const solve::report& r) const
     {
-        const double rest = params_.stopping.tuning.base;
+        const double rest = params_.solve.tuning.stopping.base;
         return params_.hard_from > 0 && r.iterations >= params_.hard_from && rest > 0 &&
                r.value > nested_params::hard_above * rest;
     }
@@ -145,12 +148,12 @@ private:
         point_constraints<2> asked;
         if (params_.springs) asked.springs = params_.springs(l);
         level_solver<triangle>::level level(solver_, std::move(host), uv, asked);
-        if (relax && params_.stopping.max_iterations > 0) level.relax();
-        auto stopping = params_.stopping;
+        if (relax && params_.solve.max_iterations > 0) level.relax();
+        auto how = params_.solve;
         if (levels_.vertices(l) <= params_.small_vertices)
-            stopping.tuning.decrease_count = params_.small_decrease_count;
+            how.tuning.stopping.decrease_count = params_.small_decrease_count;
         stages_.add({.stage = "prepare", .level = l, .vertices = levels_.vertices(l)});
-        auto r = level.minimize({.method = solve::method::newton, .stopping = stopping}, {.observer = ask});
+        auto r = level.minimize(how, {.observer = ask});
         auto did = stage_of("minimise", l, levels_.vertices(l), r);
         if (!r.capping.empty()) did.cut_by = corners_of(levels_.cells(l), r.capping, levels_.users(l));
         stages_.add(std::move(did));

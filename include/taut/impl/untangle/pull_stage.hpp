@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <taut/impl/mesh/boundary.hpp>
-#include <taut/impl/mesh/target_shapes.hpp>
 #include <taut/impl/start/harmonic.hpp>
 #include <taut/impl/start/laid.hpp>
 #include <taut/impl/untangle/stage.hpp>
@@ -22,8 +21,8 @@ namespace taut::impl
 struct pull_stage_params
 {
     std::string name;
-    target_shapes shapes = target_shapes::rest; ///< rest: as they are in the map that it starts from
-    double area_weight = 1;                     ///< of det + 1 / det against the shape of a triangle; 0: shape alone
+    bool regular = false;   ///< target shapes of triangles; else as they are in the map that it starts from
+    double area_weight = 1; ///< of det + 1 / det against the shape of a triangle; 0: shape alone
     /// Continues with weak springs once strong ones have jammed: fixed vertices that are not at their targets go to
     /// random positions first, so that those that block each other get past each other.
     bool detours = false;

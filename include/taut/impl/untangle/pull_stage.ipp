@@ -36,7 +36,7 @@ bool pull_stage::start(untangle_state<triangle>& state)
     if (!hold_boundary(state) && !hold_nothing(state)) return false;
     const double measure = impl::expected_measure(problem, state.initial());
     regularized_problem<triangle> pulled{.rest = problem.rest, .held = held_, .area_weight = params_.area_weight};
-    if (params_.shapes == target_shapes::regular)
+    if (params_.regular)
         pulled.shapes = impl::regular_shapes(problem.rest, measure);
     else
     {

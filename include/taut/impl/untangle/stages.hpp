@@ -29,10 +29,8 @@ inline untangle_stages<triangle> host_stages(bool outline_pinned)
 {
     untangle_stages<triangle> stages;
     const auto pull = [&] { stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"pull"})); };
-    const auto stretch = [&](int share)
-    {
-        stages.push_back(
-            std::make_unique<pull_stage>(pull_stage_params{"stretch", target_shapes::regular, 0.1, true, share}));
+    const auto stretch = [&](int share) {
+        stages.push_back(std::make_unique<pull_stage>(pull_stage_params{"stretch", true, 0.1, true, share}));
     };
     const auto harmonic_and_newton = [&]
     {

@@ -37,8 +37,7 @@ inline void keep_apart(atlas_run& run, chart_set& set, std::vector<char>& bad, b
                                    .no_overlap = true};
         if (roughly)
         {
-            params.solve.stopping = rough_stopping();
-            params.solve.stopping.max_iterations = 100;
+            params.solve = rough_solve(100);
             params.precision = rough_precision(run.device);
         }
         const mesh<triangle> chart = chart_alone(charts, k);

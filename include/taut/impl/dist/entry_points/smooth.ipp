@@ -132,7 +132,7 @@ session<Element> smoothing_session(MPI_Comm comm, const mesh_piece<Element>& pie
     all.together([&] { params.validate(); });
     deform_params<Element> how{.energy = energy::shape_power{params.worst_exponent},
                                .weights = energy::weighting::uniform,
-                               .shapes = target_shapes::regular,
+                               .regular = true,
                                .solve = params.solve,
                                .solver = params.solver,
                                .queue = params.queue};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <taut/impl/core/disjoint_sets.hpp>
 #include <taut/impl/io/cut_seams.hpp>
 #include <taut/impl/mesh/facets.hpp>
@@ -57,11 +58,11 @@ inline taut::impl::disjoint_sets joined_corners(const surface_file& file)
 namespace taut::io
 {
 
-std::optional<cut_surface> cut_seams(const surface_file& file)
+std::optional<cut_surface> surface_file::cut_seams() const
 {
     const auto at = [](idx i) { return static_cast<std::size_t>(i); };
-    auto points = file.surface.points();
-    auto cells = file.surface.cells();
+    auto points = surface.points();
+    auto cells = surface.cells();
     std::vector<vec2> uv(points.size(), vec2(0.0));
     std::vector<idx> sets(points.size(), -1); // the set of corners that has the vertex of the file
     bool seams = false;
@@ -69,7 +70,7 @@ std::optional<cut_surface> cut_seams(const surface_file& file)
         for (std::size_t k = 0; k < 3; ++k)
         {
             const idx v = cells[c][k];
-            const vec2 x = file.texcoord(c, k);
+            const vec2 x = texcoord(c, k);
             if (sets[at(v)] < 0)
             {
                 sets[at(v)] = static_cast<idx>(3 * c + k);
@@ -79,7 +80,7 @@ std::optional<cut_surface> cut_seams(const surface_file& file)
         }
     if (!seams) return std::nullopt;
 
-    auto joined = impl::joined_corners(file);
+    auto joined = impl::joined_corners(*this);
     std::vector<idx> origins(points.size()), sheets(3 * cells.size(), -1);
     for (std::size_t v = 0; v < points.size(); ++v) origins[v] = static_cast<idx>(v);
     std::vector<char> divided(points.size(), 0);
@@ -97,14 +98,14 @@ std::optional<cut_surface> cut_seams(const surface_file& file)
                 seam_vertices += divided[at(v)] ? 0 : 1;
                 divided[at(v)] = 1;
                 points.push_back(vec3(points[at(v)]));
-                uv.push_back(file.texcoord(c, k));
+                uv.push_back(texcoord(c, k));
                 origins.push_back(v);
             }
             cells[c][k] = sheet;
         }
-    auto corners = file.faces.corners;
+    auto corners = faces.corners;
     for (std::size_t c = 0; c < cells.size(); ++c)
-        for (std::size_t k = 0; k < 3; ++k) corners[file.faces.corner(c, k)] = cells[c][k];
+        for (std::size_t k = 0; k < 3; ++k) corners[faces.corner(c, k)] = cells[c][k];
     return cut_surface{mesh<triangle>(std::move(points), std::move(cells)), std::move(uv), std::move(origins),
                        std::move(corners), seam_vertices};
 }

@@ -92,34 +92,40 @@ void write_obj(atomic_file& out, const surface_soup& file, std::span<const idx> 
     impl::write_with_texcoords(out, file, complete, coords);
 }
 
-void write_moved(atomic_file& out, const surface_file& file, std::span<const vec3> points)
+void surface_file::write(atomic_file& out, std::span<const vec3> points) const
 {
-    if (points.size() != file.surface.points().size())
+    if (points.size() != surface.points().size())
         throw parameter_error("points", std::to_string(points.size()) + " positions for " +
-                                            std::to_string(file.surface.points().size()) +
-                                            " vertices; give one per vertex");
-    if (!file.obj.bytes.empty()) return impl::write_with_points(out, file.obj.bytes, points);
+                                            std::to_string(surface.points().size()) + " vertices; give one per vertex");
+    if (!obj.bytes.empty()) return impl::write_with_points(out, obj.bytes, points);
     impl::write_items(out, points.size(),
                       [&](std::string& text, std::size_t v)
                       {
                           const vec3& p = points[v];
-                          if (file.vertices.colours.empty()) return impl::append_line(text, "v", {p.x, p.y, p.z});
-                          const vec3& c = file.vertices.colours[v];
+                          if (vertices.colours.empty()) return impl::append_line(text, "v", {p.x, p.y, p.z});
+                          const vec3& c = vertices.colours[v];
                           impl::append_line(text, "v", {p.x, p.y, p.z, c.x, c.y, c.z});
                       });
     std::vector<std::size_t> first{0};
-    for (const idx size : file.faces.sizes) first.push_back(first.back() + static_cast<std::size_t>(size));
-    impl::write_items(out, file.faces.sizes.size(),
+    for (const idx size : faces.sizes) first.push_back(first.back() + static_cast<std::size_t>(size));
+    impl::write_items(out, faces.sizes.size(),
                       [&](std::string& text, std::size_t f)
                       {
                           text += 'f';
                           for (std::size_t k = first[f]; k < first[f + 1]; ++k)
                           {
                               text += ' ';
-                              impl::append_number(text, file.faces.corners[k] + 1);
+                              impl::append_number(text, faces.corners[k] + 1);
                           }
                           text += '\n';
                       });
+}
+
+void surface_file::write(const std::filesystem::path& path, std::span<const vec3> points) const
+{
+    atomic_file out(path);
+    write(out, points);
+    out.commit();
 }
 
 } // namespace taut::io

@@ -56,7 +56,7 @@ std::vector<double> corner_measures(const volume_file& file)
 /// negative. Non-orientable components are not changed.
 inline std::vector<idx> cells_to_turn(const volume_file& file)
 {
-    const auto sides = cell_faces_of(file);
+    const auto sides = file.faces();
     const auto measures = file.dimension == 2 ? corner_measures<triangle>(file) : corner_measures<tetrahedron>(file);
     const auto n = static_cast<idx>(measures.size());
     taut::impl::disjoint_sets sets(2 * n); // c: as it is; n + c: turned

@@ -132,10 +132,10 @@ inline void require_other(const std::filesystem::path& output, const std::filesy
 namespace taut::io
 {
 
-std::vector<vec3> rounded_to_file(const volume_file& file, std::span<const vec3> points)
+std::vector<vec3> volume_file::rounded(std::span<const vec3> x) const
 {
-    std::vector<vec3> result(points.begin(), points.end());
-    if (file.places.single)
+    std::vector<vec3> result(x.begin(), x.end());
+    if (places.single)
         for (vec3& p : result)
             for (int k = 0; k < 3; ++k) p[k] = taut::impl::in_single(p[k]);
     return result;
@@ -190,9 +190,9 @@ std::vector<file_to_write> volume_outputs(const std::filesystem::path& path, con
 namespace taut::io
 {
 
-void write_volume(const std::filesystem::path& path, const volume_file& file, std::span<const vec3> points)
+void volume_file::write(const std::filesystem::path& to, std::span<const vec3> x) const
 {
-    write_files(impl::volume_outputs(path, file, points));
+    write_files(impl::volume_outputs(to, *this, x));
 }
 
 } // namespace taut::io

@@ -28,7 +28,7 @@ public:
 
     /// places: a map with fixed coordinates at their targets. Refers to its arguments.
     apart_rounds(const map_run& run, const std::vector<std::vector<idx>>& loops, const map& places)
-        : run_(run), scaffolded_(run, loops, places), left_(run.params.solve.stopping.max_iterations)
+        : run_(run), scaffolded_(run, loops, places), left_(run.params.solve.max_iterations)
     {
     }
 
@@ -45,7 +45,7 @@ public:
 
     const map& result() const { return x_; }
     int rounds() const { return rounds_; }
-    int steps() const { return run_.params.solve.stopping.max_iterations - left_; }
+    int steps() const { return run_.params.solve.max_iterations - left_; }
     double energy_start() const { return energy_start_; }
     double energy() const { return energy_; }
     double gradient() const { return gradient_; }
@@ -62,7 +62,7 @@ private:
     bool round()
     {
         auto [plane, how] = scaffolded_.around(x_);
-        how.solve.stopping.max_iterations = std::min(most_steps, left_);
+        how.solve.max_iterations = std::min(most_steps, left_);
         const run_limits limits{run_.clock.left(), observer()};
         session_result<triangle> moved;
         try

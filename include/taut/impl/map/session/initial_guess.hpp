@@ -206,8 +206,8 @@ private:
         running_map<tetrahedron> running(queue_, of);
         running.fixed = {p.held, p.initial};
         running.load(found.x, arithmetic_);
-        const solve::impl::stopping_params enough{.gradient_tolerance = gradient, .max_iterations = steps};
-        found.steps += running.minimise({.stopping = enough}, {clock_.left(), ask_}).iterations;
+        const solve::params enough{.gradient_tolerance = gradient, .max_iterations = steps};
+        found.steps += running.minimise(enough, {clock_.left(), ask_}).iterations;
         found.x = running.coordinates();
     }
 

@@ -240,7 +240,7 @@ template <class Element>
 void session_run<Element>::minimise(session_call& call, bool arrived)
 {
     auto found = minimised(call);
-    const bool cut = found.stop == solve::stop::iterations && setup_.solve.stopping.max_iterations > most_in_float;
+    const bool cut = found.stop == solve::stop::iterations && setup_.solve.max_iterations > most_in_float;
     if ((cut || stalled(found)) && call.may_step() && in_double(map_, call.report)) found = minimised(call);
     session_report& r = last.report;
     r.energy = found.value;
@@ -255,7 +255,7 @@ template <class Element>
 solve::report session_run<Element>::minimised(session_call& call)
 {
     auto how = setup_.solve;
-    auto& most = how.stopping.max_iterations;
+    auto& most = how.max_iterations;
     most = std::min(most, call.steps_left);
     // Float next to a barrier may go on for as long as it is let, with nothing gained.
     if (map_.may_be_doubled()) most = std::min(most, most_in_float);
@@ -277,10 +277,10 @@ bool session_run<Element>::stalled(const solve::report& r) const
 {
     constexpr double of_rounding = 1e-8;                      // a tolerance that is larger is meant
     if (r.stop == solve::stop::not_finite_start) return true; // in float, of a shape that is certified
-    const auto& stopping = setup_.solve.stopping;
-    return r.gradient_norm > stopping.gradient_tolerance &&
+    const auto& asked = setup_.solve;
+    return r.gradient_norm > asked.gradient_tolerance &&
            (r.stop == solve::stop::line_search || r.stop == solve::stop::barrier ||
-            (r.stop == solve::stop::decrease && stopping.decrease_tolerance < of_rounding));
+            (r.stop == solve::stop::decrease && asked.decrease_tolerance < of_rounding));
 }
 
 template <class Element>

@@ -29,7 +29,7 @@ void require_deformable(const mesh<Element>& m, const deform_params<Element>& pa
             throw parameter_error(field, std::to_string(size) + " for " + std::to_string(m.cells().size()) + " cells");
     auto found =
         check(m, {.referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false});
-    if (params.shapes == target_shapes::regular) // which need no rest shape
+    if (params.regular) // which need no rest shape
         std::erase_if(found, [](const mesh_finding& f)
                       { return f.fault == mesh_error::degenerate_cell || f.fault == mesh_error::inverted_cell; });
     if constexpr (D == 3) // its hierarchy knows no facets
@@ -69,11 +69,11 @@ ideal_elements<Element> target_elements(const mesh<Element>& m, const deform_par
         return ideal_elements<Element>(m);
     else
     {
-        const bool regular = params.shapes == target_shapes::regular;
         if (params.targets.empty())
-            return regular ? regular_elements<Element>(m.cells().size(), whole_measure(m)) : ideal_elements<Element>(m);
+            return params.regular ? regular_elements<Element>(m.cells().size(), whole_measure(m))
+                                  : ideal_elements<Element>(m);
         auto wanted = elements_with_edges<Element>(params.targets, unit, "targets");
-        if (!regular) return wanted;
+        if (!params.regular) return wanted;
         const double factor = whole_measure(m) / std::accumulate(wanted.measure.begin(), wanted.measure.end(), 0.0);
         for (auto& inverse : wanted.inverse) inverse /= std::pow(factor, 1.0 / D);
         for (double& measure : wanted.measure) measure *= factor;
@@ -90,14 +90,9 @@ session_setup<Element> shape_setup(const mesh<Element>& m, const deform_params<E
     auto params = validated(given);
     limits.validate();
     const double unit = unit_scale(m);
-    const auto require = [n = m.points().size()](std::size_t count, const char* field)
-    {
-        if (count != 0 && count != n)
-            throw parameter_error(field, std::to_string(count) + " positions for " + std::to_string(n) + " vertices");
-    };
-    require(params.initial.size(), "initial");
-    require(params.rest.size(), "rest");
-    auto points = params.rest.empty() ? m.points() : std::move(params.rest);
+    if (const std::size_t count = params.initial.size(), n = m.points().size(); count != 0 && count != n)
+        throw parameter_error("initial", std::to_string(count) + " positions for " + std::to_string(n) + " vertices");
+    auto points = m.points();
     for (vec3& p : points) p *= unit;
     mesh<Element> rest(std::move(points), m.cells());
     params.data.validate(rest.cells().size());
@@ -112,7 +107,7 @@ session_setup<Element> shape_setup(const mesh<Element>& m, const deform_params<E
     params.constraints.on(rest).require_near(unit);
 
     std::vector<mat<D>> targets;
-    if (Element::oriented && params.shapes == target_shapes::regular)
+    if (Element::oriented && params.regular)
         for (const auto& inverse : ideal.inverse) targets.push_back(invert_upper(inverse));
     std::vector<vec<D>> start = std::move(params.initial);
     if (start.empty()) start.assign(m.points().begin(), m.points().end());
@@ -136,16 +131,16 @@ session_setup<Element> shape_setup(const mesh<Element>& m, const deform_params<E
 inline session_setup<hinge> shell_setup(const thin_shell& shell, const shell_params& params, const run_limits& limits)
 {
     params.validate();
-    auto setup = shape_setup<hinge>(shell.hinges(),
-                                    {.energy = energy::shell{},
-                                     .weights = energy::weighting::uniform,
-                                     .data = shell.rest(),
-                                     .parameters = {params.thickness ? *params.thickness / shell.mean_edge() : 1.0},
-                                     .constraints = params.constraints,
-                                     .initial = params.initial,
-                                     .precision = params.precision,
-                                     .solve = params.solve},
-                                    limits);
+    auto setup = shape_setup<hinge>(
+        shell.hinges(),
+        {.energy = {energy::shell{}, {params.thickness ? *params.thickness / shell.mean_edge() : 1.0}},
+         .weights = energy::weighting::uniform,
+         .data = shell.rest(),
+         .constraints = params.constraints,
+         .initial = params.initial,
+         .precision = params.precision,
+         .solve = params.solve},
+        limits);
     setup.of.surface = shell.surface();
     return setup;
 }
