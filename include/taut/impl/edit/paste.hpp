@@ -103,6 +103,8 @@ private:
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
-#include <taut/impl/edit/paste.ipp>
+// First, or the system that they include would include them.
 #include <taut/impl/edit/rbf.ipp>
+
+#include <taut/impl/edit/paste.ipp>
 #endif
