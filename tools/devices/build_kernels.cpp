@@ -15,6 +15,7 @@
 #include <taut/impl/objective/element_hessian.hpp>
 #include <taut/impl/objective/mesh_levels.hpp>
 #include <taut/impl/objective/newton_plan.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/sparse/block_assembly.hpp>
 #include <taut/impl/sparse/multigrid.hpp>
 
