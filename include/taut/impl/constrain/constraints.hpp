@@ -116,11 +116,38 @@ public:
     /// number. The surface is to the left of the loop, so a counter-clockwise polygon preserves its orientation. Throws
     /// constraint_error (bad_polygon, out_of_range if `first` is not on the boundary); mesh_error unless there is one
     /// boundary loop.
-    constraints& pin_boundary(std::span<const vec2> polygon, idx first = -1) requires(D == 2);
+    // A template, as clang 14 compiles all members with the class, whatever they require.
+    template <class Planar = Element>
+        requires(Planar::dimension == 2)
+    constraints& pin_boundary(std::span<const vec2> polygon, idx first = -1)
+    {
+        auto loop = boundary_loop();
+        if (first >= 0)
+        {
+            const auto start = std::find(loop.begin(), loop.end(), first);
+            if (start == loop.end())
+                throw constraint_error(constraint_error::out_of_range, {first},
+                                       "vertex " + std::to_string(first) +
+                                           " is not on the boundary; start at one of its vertices");
+            std::rotate(loop.begin(), start, loop.end());
+        }
+        std::vector<double> lengths;
+        for (std::size_t k = 0; k < loop.size(); ++k)
+            lengths.push_back(glm::distance(rest(loop[k]), rest(loop[(k + 1) % loop.size()])));
+        const auto x = impl::along_polygon(polygon, lengths);
+        return hold(loop, all, [&](std::size_t i) { return x[i]; });
+    }
 
     /// Pins the whole boundary, one loop, to one position per vertex, in the order of boundary_loops().
     /// Throws constraint_error (wrong_count); mesh_error unless there is one boundary loop.
-    constraints& pin_boundary_at(std::span<const vec2> positions) requires(D == 2);
+    template <class Planar = Element>
+        requires(Planar::dimension == 2)
+    constraints& pin_boundary_at(std::span<const vec2> positions)
+    {
+        const auto loop = boundary_loop();
+        require_count("a boundary vertex", loop.size(), positions.size());
+        return hold(loop, all, [&](std::size_t i) { return positions[i]; });
+    }
 
     /// Pins vertices at their positions in the map x (one per vertex of the mesh).
     constraints& fix(std::span<const idx> vertices, std::span<const point> x)
@@ -217,7 +244,20 @@ private:
                                        "a surface in space has no place in the plane yet; give the map, too");
     }
 
-    std::vector<idx> boundary_loop() const requires(D == 2);
+    template <class Planar = Element>
+    std::vector<idx> boundary_loop() const
+    {
+        if (!mesh_) return {};
+        auto loops = boundary_loops(*mesh_);
+        if (loops.empty()) throw mesh_error(impl::describe<Element>(mesh_error::closed_surface, {}));
+        if (loops.size() > 1)
+        {
+            std::vector<idx> first;
+            for (const auto& loop : loops) first.push_back(loop[0]);
+            throw mesh_error(impl::describe<Element>(mesh_error::several_boundaries, std::move(first)));
+        }
+        return std::move(loops.front());
+    }
 
     /// Fixes `coordinates` of the vertices at where(i), i counting through them: all or, where it throws, none.
     /// replace: true if earlier pins are replaced.
@@ -270,34 +310,6 @@ constraints<Element>& constraints<Element>::release(idx v)
     pins_.erase(v);
     springs_.erase(v);
     return *this;
-}
-
-template <class Element>
-constraints<Element>& constraints<Element>::pin_boundary(std::span<const vec2> polygon, idx first) requires(D == 2)
-{
-    auto loop = boundary_loop();
-    if (first >= 0)
-    {
-        const auto start = std::find(loop.begin(), loop.end(), first);
-        if (start == loop.end())
-            throw constraint_error(constraint_error::out_of_range, {first},
-                                   "vertex " + std::to_string(first) +
-                                       " is not on the boundary; start at one of its vertices");
-        std::rotate(loop.begin(), start, loop.end());
-    }
-    std::vector<double> lengths;
-    for (std::size_t k = 0; k < loop.size(); ++k)
-        lengths.push_back(glm::distance(rest(loop[k]), rest(loop[(k + 1) % loop.size()])));
-    const auto x = impl::along_polygon(polygon, lengths);
-    return hold(loop, all, [&](std::size_t i) { return x[i]; });
-}
-
-template <class Element>
-constraints<Element>& constraints<Element>::pin_boundary_at(std::span<const vec2> positions) requires(D == 2)
-{
-    const auto loop = boundary_loop();
-    require_count("a boundary vertex", loop.size(), positions.size());
-    return hold(loop, all, [&](std::size_t i) { return positions[i]; });
 }
 
 template <class Element>
@@ -402,21 +414,6 @@ void constraints<Element>::require_count(const char* what, std::size_t wanted, s
     if (wanted != given)
         throw constraint_error(constraint_error::wrong_count, {},
                                std::to_string(given) + " positions; give one " + what + ": " + std::to_string(wanted));
-}
-
-template <class Element>
-std::vector<idx> constraints<Element>::boundary_loop() const requires(D == 2)
-{
-    if (!mesh_) return {};
-    auto loops = boundary_loops(*mesh_);
-    if (loops.empty()) throw mesh_error(impl::describe<Element>(mesh_error::closed_surface, {}));
-    if (loops.size() > 1)
-    {
-        std::vector<idx> first;
-        for (const auto& loop : loops) first.push_back(loop[0]);
-        throw mesh_error(impl::describe<Element>(mesh_error::several_boundaries, std::move(first)));
-    }
-    return std::move(loops.front());
 }
 
 template <class Element>
