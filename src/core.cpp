@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <taut/impl/constrain/constraints.ipp>
 #include <taut/impl/constrain/untangle_problem.ipp>
 #include <taut/impl/core/error.ipp>
 #include <taut/impl/core/parallel.ipp>

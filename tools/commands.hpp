@@ -5,8 +5,6 @@
 #include <functional>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "shared/exit_codes.hpp"
 #include "shared/outputs.hpp"
 
@@ -18,26 +16,26 @@ namespace taut::tools
 using command = std::function<exit_code(const outputs&)>;
 
 /// Each adds one subcommand with its options and returns what it does. `launch` is when the program started.
-command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point launch);
-command add_atlas(CLI::App& program, std::chrono::steady_clock::time_point launch);
-command add_bake(CLI::App& program, std::chrono::steady_clock::time_point launch);
-command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point launch);
-command add_deform(CLI::App& program, std::chrono::steady_clock::time_point launch);
-command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch);
-command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launch);
-command add_check(CLI::App& program);
-command add_eval(CLI::App& program);
-command add_view(CLI::App& program);
-command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launch);
-command add_devices(CLI::App& program);
+command add_unwrap(command_line& program, std::chrono::steady_clock::time_point launch);
+command add_atlas(command_line& program, std::chrono::steady_clock::time_point launch);
+command add_bake(command_line& program, std::chrono::steady_clock::time_point launch);
+command add_untangle(command_line& program, std::chrono::steady_clock::time_point launch);
+command add_deform(command_line& program, std::chrono::steady_clock::time_point launch);
+command add_smooth(command_line& program, std::chrono::steady_clock::time_point launch);
+command add_paste(command_line& program, std::chrono::steady_clock::time_point launch);
+command add_check(command_line& program);
+command add_eval(command_line& program);
+command add_view(command_line& program);
+command add_batch(command_line& program, std::chrono::steady_clock::time_point launch);
+command add_devices(command_line& program);
 /// Hidden: of build_elsewhere().
-command add_build_kernels(CLI::App& program);
+command add_build_kernels(command_line& program);
 /// Hidden: of packages, and of who sets up a shell.
-command add_completion(CLI::App& program);
-command add_man(CLI::App& program);
+command add_completion(command_line& program);
+command add_man(command_line& program);
 
 /// All of them, in the order in which the help lists them.
-inline std::vector<command> add_commands(CLI::App& program, std::chrono::steady_clock::time_point launch)
+inline std::vector<command> add_commands(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     return {add_unwrap(program, launch),
             add_atlas(program, launch),

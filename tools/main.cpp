@@ -4,14 +4,11 @@
 #include <exception>
 #include <functional>
 #include <iostream>
-#include <memory>
 #include <new>
-#include <sstream>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include <CLI/CLI.hpp>
 
 #include <taut/impl/compute/errors.hpp>
 #include <taut/impl/io/io_error.hpp>
@@ -22,7 +19,6 @@
 #include "commands.hpp"
 #include "shared/command_line.hpp"
 #include "shared/failure.hpp"
-#include "shared/help.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/other_way.hpp"
 #include "shared/printable.hpp"
@@ -45,20 +41,20 @@ int fail(exit_code code, const std::string& what, const std::string& remedy = {}
 }
 
 /// Describes a parameter_error in terms of the command: by the option that sets it, if one does.
-std::string in_words_of(const CLI::App* command, const parameter_error& e)
+std::string in_words_of(const std::optional<subcommand>& command, const parameter_error& e)
 {
     std::string option = "--" + e.field();
     std::replace(option.begin(), option.end(), '_', '-');
     const std::string what = e.what(), begin = "parameter " + e.field();
     if (!what.starts_with(begin)) return what;
-    const bool known = command != nullptr && command->get_option_no_throw(option) != nullptr;
+    const bool known = command && command->has(option);
     return (known ? option : e.field()) + what.substr(begin.size());
 }
 
 /// Runs a subcommand; every exception becomes one line and an exit code, see docs/reference/errors.md.
-int guarded(const std::function<exit_code()>& run, const CLI::App* command)
+int guarded(const std::function<exit_code()>& run, const std::optional<subcommand>& command = {})
 {
-    const std::string name = command != nullptr ? command->get_name() : "";
+    const std::string name = command ? command->name() : "";
     try
     {
         const exit_code code = run();
@@ -119,52 +115,35 @@ int guarded(const std::function<exit_code()>& run, const CLI::App* command)
     }
 }
 
-int usage(const CLI::App& program, const CLI::ParseError& e)
-{
-    std::string name = "taut";
-    for (const auto* app : program.get_subcommands()) name += ' ' + app->get_name();
-    const auto wrong = wrong_words(program);
-    return fail(exit_code::usage, wrong.empty() ? e.what() : wrong, '`' + name + " --help` lists the options");
-}
-
 int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
-    command_line program("Injective, low-distortion maps of triangle and tetrahedral meshes, on any OpenCL device.",
-                         "taut");
-    program.set_version_flag("--version", "taut " TAUT_VERSION_STRING);
-    program.require_subcommand(1);
-    program.formatter(std::make_shared<wrapped_help>());
-    program.footer("exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+    command_line program(
+        {.name = "taut",
+         .description = "Injective, low-distortion maps of triangle and tetrahedral meshes, on any OpenCL device.",
+         .version = "taut " TAUT_VERSION_STRING,
+         .footer = "exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                    "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure;\n"
                    "  10 some jobs of a batch failed;\n"
-                   "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one by then");
+                   "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one by then"});
 
     const auto commands = add_commands(program, launch);
-    if (const auto wrong = wrong_subcommand(program, argc, argv); !wrong.empty())
-        return fail(exit_code::usage, wrong, "`taut --help` lists them");
     try
     {
-        program.parse(argc, argv);
+        if (const auto text = program.parse(argc, argv))
+            return guarded(
+                [&]
+                {
+                    write_standard_output(*text);
+                    return exit_code::valid;
+                });
     }
-    catch (const CLI::Success& e) // --help, --version
+    catch (const argument_error& e)
     {
-        return guarded(
-            [&]
-            {
-                std::ostringstream text;
-                program.exit(e, text, std::cerr);
-                write_standard_output(text.str());
-                return exit_code::valid;
-            },
-            nullptr);
+        return fail(exit_code::usage, e.what(), e.remedy());
     }
-    catch (const CLI::ParseError& e)
-    {
-        return usage(program, e);
-    }
-    const auto all = program.get_subcommands({});
+    const auto all = program.subcommands();
     for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k]->parsed()) return guarded([&] { return commands[k](outputs(files_of(*all[k]))); }, all[k]);
+        if (all[k].parsed()) return guarded([&] { return commands[k](outputs(files_of(all[k]))); }, all[k]);
     return to_int(exit_code::usage);
 }
 

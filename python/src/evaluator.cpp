@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Energy, gradient and Hessian of maps as numbers.
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/solve.hpp>
 
 #include "bindings.hpp"

@@ -25,7 +25,7 @@ GATHER = {
     "impl/objective/map_objective.hpp": 9,
     "impl/objective/running_map.hpp": 9,
     "impl/dist/shape_body.hpp": 9,
-    "impl/dist_io/open_volume.hpp": 9,
+    "impl/dist_io/open_volume.ipp": 10,
     "impl/untangle/state.hpp": 9,
     "impl/untangle/coarse_stage.hpp": 9,
     "impl/map/parameterize_params.hpp": 9,

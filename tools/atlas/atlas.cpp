@@ -354,10 +354,10 @@ private:
 
 } // namespace
 
-command add_atlas(CLI::App& program, std::chrono::steady_clock::time_point launch)
+command add_atlas(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<atlas_options>();
-    declare(*program.add_subcommand("atlas", "Cut any surface into charts, flatten them and pack them in a square"),
+    declare(program.add_subcommand("atlas", "Cut any surface into charts, flatten them and pack them in a square"),
             *options);
     return [options, launch](const outputs& files)
     {

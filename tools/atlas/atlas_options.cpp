@@ -20,14 +20,14 @@ namespace taut::tools
 namespace
 {
 
-void declare_charts(CLI::App& app, atlas_options& o)
+void declare_charts(const subcommand& app, atlas_options& o)
 {
     app.add_flag("--repair", o.repair,
                  "Repair the input: duplicate and degenerate triangles, non-manifold edges, "
                  "winding, ...; the files keep their vertices and faces, removed faces have no vt");
-    app.add_option_function<double>(
+    app.add_option_function(
            "--weld",
-           [&o](const double& d)
+           [&o](double d)
            {
                o.weld = d;
                o.repair = true;
@@ -35,22 +35,22 @@ void declare_charts(CLI::App& app, atlas_options& o)
            "Repair, and weld corners at open edges that are at most D apart, in units of "
            "the file; 0: equal ones only. --repair alone welds those within 1e-7 of the "
            "size, or 8 units of the last digit of the file")
-        ->type_name("D")
-        ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must be a length, 0 or more"));
+        .type_name("D")
+        .check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must be a length, 0 or more"));
     const auto distortion = number_that([](double x) { return x > 4 && std::isfinite(x); }, "is not above 4");
     app.add_option("--max-distortion", o.max_distortion,
                    "Bound of the mean isometric energy of a chart; 4 is no distortion; default none, 4.2 for packing")
-        ->type_name("D")
-        ->check(distortion);
+        .type_name("D")
+        .check(distortion);
     app.add_option("--mean-distortion", o.mean_distortion,
                    "Bound of that of all charts; default 4.1, 4.045 for packing, or --max-distortion if that is given")
-        ->type_name("D")
-        ->check(distortion);
+        .type_name("D")
+        .check(distortion);
     app.add_option("--max-stretch", o.max_stretch,
                    "The same bound in other words: the stretch (L2, Sander et al. 2001) of the whole atlas, above 1; "
                    "1.02: texels are 2 % too coarse in the mean")
-        ->type_name("S")
-        ->check(number_that([](double x) { return x > 1 && std::isfinite(x); }, "is not above 1, that of no stretch"));
+        .type_name("S")
+        .check(number_that([](double x) { return x > 1 && std::isfinite(x); }, "is not above 1, that of no stretch"));
     add_choice<chart_preference>(
         app, "--prefer", o.prefer,
         {{"seams", chart_preference::seams}, {"packing", chart_preference::packing}, {"one", chart_preference::one}},
@@ -71,55 +71,55 @@ void declare_charts(CLI::App& app, atlas_options& o)
                        "Have seams in hollows, where little is seen of them from outside");
     app.add_option("--crease-angle", o.crease_angle,
                    "Have seams along edges that are bent by more than this, concave ones first, and between materials")
-        ->type_name("DEGREES")
-        ->check(number_that([](double x) { return x >= 0 && x <= 180; }, "must be from 0 to 180"));
+        .type_name("DEGREES")
+        .check(number_that([](double x) { return x >= 0 && x <= 180; }, "must be from 0 to 180"));
     add_input(app, "--pin", o.pinned, "the file of pinned faces",
               "Faces, from 0, that pin their charts of the file's vt: these keep shape and "
               "place, others are packed around them");
 }
 
-void declare_packing(CLI::App& app, atlas_options& o)
+void declare_packing(const subcommand& app, atlas_options& o)
 {
     app.add_option("--padding", o.padding,
                    "Texels between charts, and from them to the border of the square; default 2, or for --mip-levels")
-        ->type_name("PX")
-        ->check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"));
+        .type_name("PX")
+        .check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"));
     app.add_option(
            "--mip-levels", o.mip_levels,
            "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels; 0 to 10")
-        ->type_name("N")
-        ->check(CLI::Range(0, 10).description(""));
+        .type_name("N")
+        .check_said_range(0, 10);
     app.add_option("--resolution", o.size,
                    "Texels along a side of the square, or of a page that is wider or higher by a power of two")
-        ->type_name("N|WxH")
-        ->capture_default_str();
+        .type_name("N|WxH")
+        .capture_default_str();
     app.add_option("--texels-per-unit", o.texels_per_unit,
                    "Texels of a unit of length of the file, with as many tiles as that takes; default as many as fit")
-        ->type_name("T")
-        ->check(number_that([](double x) { return x > 0 && std::isfinite(x); }, "must be positive"));
+        .type_name("T")
+        .check(number_that([](double x) { return x > 0 && std::isfinite(x); }, "must be positive"));
     app.add_option("--max-resolution", o.max_resolution,
                    "With --texels-per-unit: double the resolution up to N until one tile, or those of --udim, do")
-        ->type_name("N")
-        ->check(CLI::Range(1, 65536).description(""));
+        .type_name("N")
+        .check_said_range(1, 65536);
     app.add_option("--align", o.align,
                    "Side of the blocks of texels that one chart has alone: 4 for compressed textures; 1, 2, 4, ..., "
                    "64, at most an "
                    "eighth of --resolution")
-        ->type_name("N")
-        ->check(CLI::IsMember({1, 2, 4, 8, 16, 32, 64}).description(""))
-        ->capture_default_str();
+        .type_name("N")
+        .check_one_of({1, 2, 4, 8, 16, 32, 64})
+        .capture_default_str();
     app.add_option(
            "--udim", o.tiles,
            "Number of tiles: 1001, 1002, ... of UDIM, ten in a row; default 1; 100 at most for --texels-per-unit")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1000));
+        .type_name("N")
+        .check_range(1, 1000);
     add_choice<bool>(app, "--stack", o.stack, {{"none", false}, {"similar", true}},
                      "Lay charts on each other that are copies in space, turned and moved");
     app.add_flag("--tile-per-material", o.by_material, "Give each material of the file a tile of its own");
     app.add_flag("--upright", o.upright, "Translate charts only, without rotation");
 }
 
-void declare_reports(CLI::App& app, atlas_options& o)
+void declare_reports(const subcommand& app, atlas_options& o)
 {
     add_time_limit(app, o.time_limit, "Stop after S seconds, with charts as they are (exit code 8)");
     add_device(app, o.device);
@@ -133,28 +133,28 @@ void declare_reports(CLI::App& app, atlas_options& o)
 
 } // namespace
 
-void declare(CLI::App& app, atlas_options& o)
+void declare(const subcommand& app, atlas_options& o)
 {
     add_input(app, "IN", o.inputs, "the input",
               "Surfaces that share the atlas: OBJ, OFF, PLY, STL, glTF; - is standard input")
-        ->required()
-        ->type_name("FILE...");
+        .required()
+        .type_name("FILE...");
     add_output(app, "-o,--output", o.outputs,
                {.extensions = {".obj", ".glb", ".gltf"}, .made_of = "IN", .in_place = true},
                "Output, once for each surface: the input file with new vt; one for several: an "
                "OBJ of all of them as triangles, an object each; - is standard output")
-        ->required()
-        ->allow_extra_args(false)
-        ->type_name("OUT.obj|.glb");
+        .required()
+        .one_value_each()
+        .type_name("OUT.obj|.glb");
     add_format(app, o.format);
     app.add_option("--texcoord-set", o.texcoord_set, "The N of TEXCOORD_N, of glTF")
-        ->type_name("N")
-        ->check(CLI::Range(0, 7))
-        ->capture_default_str();
+        .type_name("N")
+        .check_range(0, 7)
+        .capture_default_str();
     app.add_option("--read-texcoord-set", o.read_texcoord_set,
                    "The set whose charts and seams are read, where it is another one")
-        ->type_name("N")
-        ->check(CLI::Range(0, 7).description(""));
+        .type_name("N")
+        .check_said_range(0, 7);
     declare_charts(app, o);
     declare_packing(app, o);
     declare_reports(app, o);

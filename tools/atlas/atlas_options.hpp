@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include <taut/impl/atlas/atlas_params.hpp>
 #include <taut/impl/io/read_surface.hpp>
 
 #include "atlas/atlas_source.hpp"
+#include "shared/options.hpp"
 
 namespace taut::tools
 {
@@ -49,7 +48,7 @@ struct atlas_options
 };
 
 /// Declares the options; they are filled when the program's arguments are parsed.
-void declare(CLI::App& app, atlas_options& options);
+void declare(const subcommand& app, atlas_options& options);
 
 /// Throws usage_error for options that do not fit together.
 void check(const atlas_options& options);

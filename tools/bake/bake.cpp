@@ -418,10 +418,10 @@ private:
 
 } // namespace
 
-command add_bake(CLI::App& program, std::chrono::steady_clock::time_point launch)
+command add_bake(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<bake_options>();
-    declare(*program.add_subcommand("bake", "Make the textures of an atlas anew for another one"), *options);
+    declare(program.add_subcommand("bake", "Make the textures of an atlas anew for another one"), *options);
     return [options, launch](const outputs& files) { return bake_run(*options, files, launch)(); };
 }
 

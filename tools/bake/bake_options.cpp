@@ -35,7 +35,7 @@ std::optional<std::pair<idx, idx>> size_of(std::string_view text)
     return std::pair(width, height);
 }
 
-void declare_pictures(CLI::App& app, bake_options& o)
+void declare_pictures(const subcommand& app, bake_options& o)
 {
     add_input(app, "--texture", o.texture, file_use{.read_as = "the texture", .tiles = true},
               "The texture of OLD: PNG, JPEG or EXR, NAME.<UDIM>.png for one a tile; without it those of the "
@@ -44,8 +44,8 @@ void declare_pictures(CLI::App& app, bake_options& o)
     add_output(app, "-o,--output", o.output,
                {.tiles = true, .extensions = {".png", ".exr", ".glb", ".gltf"}, .made_of = "NEW", .in_place = true},
                "The texture of NEW, NAME.<UDIM>.png for one a tile; or NEW with its textures, of glTF")
-        ->required()
-        ->type_name("OUT.png|.exr|.glb");
+        .required()
+        .type_name("OUT.png|.exr|.glb");
     add_choice<texture_content>(
         app, "--content", o.content,
         {{"colour", texture_content::colour}, {"data", texture_content::data}, {"normal", texture_content::normal}},
@@ -57,45 +57,44 @@ void declare_pictures(CLI::App& app, bake_options& o)
                               {{"repeat", texture::wrap::repeat}, {"clamp", texture::wrap::clamp}},
                               "Continuation of the old texture beyond the unit square");
     app.add_option("--resolution", o.size, "Texels of the new texture, N or WIDTHxHEIGHT; default those of the old one")
-        ->type_name("N|WxH")
-        ->check(CLI::Validator([](const std::string& text)
-                               { return size_of(text) ? "" : text + " is no size from 1 to 32768, N or WxH"; },
-                               ""));
+        .type_name("N|WxH")
+        .check([](const std::string& text)
+               { return size_of(text) ? "" : text + " is no size from 1 to 32768, N or WxH"; });
     app.add_option("--samples", o.samples, "Samples along each side of a new texel, of which the mean is taken")
-        ->type_name("N")
-        ->check(CLI::Range(1, 8))
-        ->capture_default_str();
+        .type_name("N")
+        .check_range(1, 8)
+        .capture_default_str();
     app.add_option("--gutter", o.gutter, "Texels around charts that get the nearest texel of one; default all")
-        ->type_name("PX")
-        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"));
+        .type_name("PX")
+        .check(number_that([](double x) { return x >= 0; }, "must not be negative"));
     app.add_option("--bits", o.bits, "Bits of a number in PNG, 8 or 16; default as the old texture")
-        ->type_name("N")
-        ->check(CLI::IsMember({8, 16}).description(""));
+        .type_name("N")
+        .check_one_of({8, 16});
     app.add_flag("--green-down", o.green_down, "Green of normal maps grows downwards, as for DirectX");
 }
 
 } // namespace
 
-void declare(CLI::App& app, bake_options& o)
+void declare(const subcommand& app, bake_options& o)
 {
-    o.given = [&app](const std::string& name) { return app.count(name) > 0; };
+    o.given = [app](const std::string& name) { return app.given(name); };
     add_input(app, "OLD", o.before, file_use{.read_as = "the old surface", .with_images = true},
               "The surface with the texture coordinates that the texture is made for: OBJ, OFF, PLY, glTF")
-        ->required();
+        .required();
     add_input(app, "NEW", o.after, "the new surface", "The same faces with the new ones, such as `taut atlas` makes")
-        ->required();
+        .required();
     declare_pictures(app, o);
     add_output(
         app, "--difference", o.difference, {.tiles = true, .extensions = {".png", ".exr"}},
         "Draw in the old atlas by how much the surface looks different: eight times in .png, the numbers in .exr");
     add_format(app, o.format);
     app.add_option("--texcoord-set", o.texcoord_set, "The N of TEXCOORD_N of OLD, of glTF")
-        ->type_name("N")
-        ->check(CLI::Range(0, 7))
-        ->capture_default_str();
+        .type_name("N")
+        .check_range(0, 7)
+        .capture_default_str();
     app.add_option("--new-texcoord-set", o.new_texcoord_set, "That of NEW; default the same")
-        ->type_name("N")
-        ->check(CLI::Range(0, 7));
+        .type_name("N")
+        .check_range(0, 7);
     add_device(app, o.device);
     add_stats(app, o.stats);
     app.add_flag("--quiet", o.quiet, "Print errors only");

@@ -5,12 +5,11 @@
 #include <string>
 #include <utility>
 
-#include <CLI/CLI.hpp>
-
 #include <taut/impl/bake/bake_params.hpp>
 #include <taut/impl/io/read_surface.hpp>
 
 #include "bake/model_textures.hpp"
+#include "shared/options.hpp"
 
 namespace taut::tools
 {
@@ -35,7 +34,7 @@ struct bake_options
 };
 
 /// Declares the options; they are filled when the program's arguments are parsed.
-void declare(CLI::App& app, bake_options& options);
+void declare(const subcommand& app, bake_options& options);
 
 /// Throws usage_error for options that do not fit together.
 void check(const bake_options& options);

@@ -110,44 +110,44 @@ exit_code run(batch_options options, const outputs& files, const run_clock& cloc
 
 } // namespace
 
-command add_batch(CLI::App& program, std::chrono::steady_clock::time_point launch)
+command add_batch(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<batch_options>();
     auto& o = *options;
-    auto& app = *program.add_subcommand("batch", "Run many calls of this program, each within its limits");
+    const auto app = program.add_subcommand("batch", "Run many calls of this program, each within its limits");
     add_input(
         app, "--manifest", o.manifest, "the manifest",
         R"(The jobs, one JSON object per line: {"id": "a", "args": ["unwrap", "a.obj", "-o", "flat.obj"]}, and in it, )"
         R"(if wanted, "time_limit": S and "memory_limit": BYTES)")
-        ->type_name("FILE.jsonl");
+        .type_name("FILE.jsonl");
     app.add_flag("--stdin", o.run.from_standard_input,
                  "Take the jobs from standard input as they come, in the form of a manifest, until it ends");
     add_output(app, "--out", o.out, {.otherwise = standard_output},
                "Append the results, one JSON object per line; - is standard output")
-        ->type_name("FILE.jsonl");
+        .type_name("FILE.jsonl");
     app.add_option("--shard", o.shard,
                    "Only part i of N of the jobs, i from 1 to N; auto: as the scheduler says that started this")
-        ->type_name("i/N|auto");
+        .type_name("i/N|auto");
     app.add_flag("--resume", o.run.resume,
                  "Leave out jobs that have a result in --out, where arguments and inputs are the same and the outputs "
                  "exist");
     app.add_flag("--retry", o.run.retry, "As --resume, but run failed jobs again");
     app.add_option("--jobs", o.jobs, "Number of jobs at once; they share the processors")
-        ->type_name("N")
-        ->check(number_that([](double x) { return x >= 1 && x <= 4096; }, "must be from 1 to 4096"))
-        ->capture_default_str();
+        .type_name("N")
+        .check(number_that([](double x) { return x >= 1 && x <= 4096; }, "must be from 1 to 4096"))
+        .capture_default_str();
     add_time_limit(app, o.run.bounds.seconds,
                    "Time limit of jobs without one of their own: they end after S seconds, with "
                    "their best result");
     app.add_option("--memory-limit", o.memory_limit, "Memory limit of jobs without one of their own")
-        ->type_name("BYTES")
-        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
+        .type_name("BYTES")
+        .check(number_that([](double x) { return x > 0; }, "must be positive"));
     app.add_option("--grace", o.run.bounds.grace, "Time to write the best result, before a job is killed")
-        ->type_name("S")
-        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
-        ->capture_default_str();
+        .type_name("S")
+        .check(number_that([](double x) { return x >= 0; }, "must not be negative"))
+        .capture_default_str();
     app.add_option("--cache", o.cache, "Folder of compiled kernels, with a subfolder for each running job")
-        ->type_name("FOLDER");
+        .type_name("FOLDER");
     add_progress(app, o.progress, o.quiet);
     app.footer("exit codes: 0 all jobs have a valid map; 10 all were run, and some failed; 2, 3 "
                "as other commands;\n  130, 143 interrupted: running jobs are done again with "

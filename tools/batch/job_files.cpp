@@ -3,8 +3,6 @@
 
 #include <chrono>
 
-#include <CLI/CLI.hpp>
-
 #include "commands.hpp"
 #include "shared/command_line.hpp"
 #include "shared/tile_names.hpp"
@@ -20,7 +18,6 @@ struct argument_reader::program
 
 argument_reader::argument_reader() : program_(std::make_unique<program>())
 {
-    program_->app.require_subcommand(1);
     program_->commands = add_commands(program_->app, std::chrono::steady_clock::now());
 }
 
@@ -29,23 +26,19 @@ argument_reader::~argument_reader() = default;
 job_files argument_reader::files(const std::vector<std::string>& args)
 {
     job_files found;
-    try
+    if (!program_->app.accepts(args)) return found;
+    for (const auto& command : program_->app.subcommands())
     {
-        program_->app.parse(std::vector<std::string>(args.rbegin(), args.rend()));
-    }
-    catch (const CLI::Error&) // --help is one, too
-    {
-        return found;
-    }
-    for (const auto* command : program_->app.get_subcommands())
-        for (const auto& file : files_of(*command))
+        if (!command.parsed()) continue;
+        for (const auto& file : files_of(command))
         {
             const auto path = file.path.string();
-            if (file.option->check_lname("stats")) found.stats = path;
+            if (file.option.name() == "--stats") found.stats = path;
             if (path != standard_input && path != standard_output)
                 (file.is_read() ? found.inputs : found.outputs).push_back(path);
             if (!file.is_read() && file.use->tiles && names_tiles(path)) found.tiles.push_back(path);
         }
+    }
     return found;
 }
 

@@ -5,9 +5,9 @@
 namespace taut::tools
 {
 
-command add_batch(CLI::App& program, std::chrono::steady_clock::time_point)
+command add_batch(command_line& program, std::chrono::steady_clock::time_point)
 {
-    auto& app = *program.add_subcommand("batch", "Not on Windows: run many jobs, as processes with limits");
+    const auto app = program.add_subcommand("batch", "Not on Windows: run many jobs, as processes with limits");
     app.prefix_command();
     return [](const outputs&) -> exit_code
     {

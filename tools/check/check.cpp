@@ -340,15 +340,15 @@ exit_code run(const check_options& options)
 
 } // namespace
 
-command add_check(CLI::App& program)
+command add_check(command_line& program)
 {
     const auto options = std::make_shared<check_options>();
-    auto& app = *program.add_subcommand("check",
-                                        "Report the faults of a surface, a volume, a problem or pins, without solving");
+    const auto app =
+        program.add_subcommand("check", "Report the faults of a surface, a volume, a problem or pins, without solving");
     add_input(app, "IN", options->input, "the input",
               "Surface (OBJ, OFF, PLY, STL) as `unwrap` takes it, problem (.prob), or volume, or mesh of the plane "
               "(.mesh .msh .vtk .vtu .node .su2); - is standard input")
-        ->required();
+        .required();
     using io::surface_format;
     add_choice<std::optional<surface_format>>(app, "--format", options->format,
                                               {{"auto", surface_format::automatic},
@@ -360,7 +360,7 @@ command add_check(CLI::App& program)
                                               "Kind of IN; auto: by its name, for - (standard input) a surface");
     add_input(app, "--pins", options->pins, "the pins",
               "Pins as CSV: vertex,u,v[,weight]; more pins, if IN is a problem")
-        ->type_name("FILE.csv");
+        .type_name("FILE.csv");
     add_zone(app, options->zone);
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 nothing wrong; 2 usage; 3 unreadable input; 4 unsuitable input; 7 proved infeasible");

@@ -37,21 +37,21 @@ exit_code run(const shape_options& options, const outputs& files, std::chrono::s
 
 } // namespace
 
-command add_deform(CLI::App& program, std::chrono::steady_clock::time_point launch)
+command add_deform(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<shape_options>();
-    declare_deform(
-        *program.add_subcommand("deform", "Deform a volume, a planar mesh, or a surface in space under fixed and moved "
+    declare_deform(program.add_subcommand("deform",
+                                          "Deform a volume, a planar mesh, or a surface in space under fixed and moved "
                                           "vertices"),
-        *options);
+                   *options);
     return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }
 
-command add_smooth(CLI::App& program, std::chrono::steady_clock::time_point launch)
+command add_smooth(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<shape_options>();
     declare_smooth(
-        *program.add_subcommand("smooth", "Smooth a mesh: move vertices to improve the shapes of its elements"),
+        program.add_subcommand("smooth", "Smooth a mesh: move vertices to improve the shapes of its elements"),
         *options);
     return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }

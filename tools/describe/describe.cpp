@@ -57,29 +57,28 @@ exit_code write_man_pages(const program_words& program, const std::filesystem::p
 
 } // namespace
 
-command add_completion(CLI::App& program)
+command add_completion(command_line& program)
 {
     const auto kind = std::make_shared<shell>();
-    auto& app = *program.add_subcommand("completion", "Print what completes commands and options in a shell");
-    app.group(""); // not in the help
+    const auto app = program.add_subcommand("completion", "Print what completes commands and options in a shell");
+    app.hide();
     add_choice<shell>(app, "SHELL", *kind, {{"bash", shell::bash}, {"zsh", shell::zsh}, {"fish", shell::fish}},
                       "The shell that reads it")
-        ->required();
+        .required();
     return [kind, &program](const outputs&)
     {
-        write_standard_output(completion_of(*kind, describe(dynamic_cast<const command_line&>(program))));
+        write_standard_output(completion_of(*kind, describe(program)));
         return exit_code::valid;
     };
 }
 
-command add_man(CLI::App& program)
+command add_man(command_line& program)
 {
     const auto folder = std::make_shared<std::string>();
-    auto& app = *program.add_subcommand("man", "Write the pages of man, one a command");
-    app.group(""); // not in the help
-    app.add_option("FOLDER", *folder, "Where they go; made if it is not there")->required();
-    return [folder, &program](const outputs&)
-    { return write_man_pages(describe(dynamic_cast<const command_line&>(program)), *folder); };
+    const auto app = program.add_subcommand("man", "Write the pages of man, one a command");
+    app.hide();
+    app.add_option("FOLDER", *folder, "Where they go; made if it is not there").required();
+    return [folder, &program](const outputs&) { return write_man_pages(describe(program), *folder); };
 }
 
 } // namespace taut::tools

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "shared/arguments.hpp"
+
 namespace taut::tools
 {
 
@@ -59,8 +61,9 @@ command_words words_of(const CLI::App& app, const std::map<const CLI::Option*, f
 
 } // namespace
 
-program_words describe(const command_line& program)
+program_words describe(const command_line& line)
 {
+    const arguments& program = line.known();
     program_words words{words_of(program, program.files), {}};
     for (const auto* app : program.get_subcommands([](const CLI::App*) { return true; }))
         if (!app->get_group().empty()) words.commands.push_back(words_of(*app, program.files));

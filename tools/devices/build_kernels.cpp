@@ -15,6 +15,7 @@
 #include <taut/impl/objective/element_hessian.hpp>
 #include <taut/impl/objective/mesh_levels.hpp>
 #include <taut/impl/objective/newton_plan.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/sparse/block_assembly.hpp>
 #include <taut/impl/sparse/multigrid.hpp>
 
@@ -120,14 +121,14 @@ exit_code run(const build_options& options)
 
 } // namespace
 
-command add_build_kernels(CLI::App& program)
+command add_build_kernels(command_line& program)
 {
     const auto options = std::make_shared<build_options>();
-    auto& app =
-        *program.add_subcommand("build-kernels", "Compile kernels into the driver's cache: those of matrices, or "
-                                                 "those that standard input names");
-    app.group(""); // not in the help
-    app.add_option("dimension", options->dimension)->check(CLI::Range(2, 3));
+    const auto app =
+        program.add_subcommand("build-kernels", "Compile kernels into the driver's cache: those of matrices, or "
+                                                "those that standard input names");
+    app.hide();
+    app.add_option("dimension", options->dimension).check_range(2, 3);
     app.add_option("real", options->real);
     add_device(app, options->device);
     return [options](const outputs&) { return run(*options); };

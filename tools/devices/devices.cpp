@@ -45,10 +45,10 @@ exit_code list_devices()
 
 } // namespace
 
-command add_devices(CLI::App& program)
+command add_devices(command_line& program)
 {
     program.add_subcommand("devices", "List the OpenCL devices of this machine and the default one")
-        ->footer("exit codes: 0 listed; 2 usage; 5 no device");
+        .footer("exit codes: 0 listed; 2 usage; 5 no device");
     return [](const outputs&) { return list_devices(); };
 }
 

@@ -151,15 +151,16 @@ exit_code evaluate(const eval_options& options)
 
 } // namespace
 
-command add_eval(CLI::App& program)
+command add_eval(command_line& program)
 {
     const auto options = std::make_shared<eval_options>();
-    auto& app = *program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
+    const auto app =
+        program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
     add_input(
         app, "IN", options->input, "the input",
         "OBJ file with texture coordinates; seams are cut open; - is standard input. Or a volume (.mesh .msh .vtk "
         ".vtu .node .su2), or a problem (.prob)")
-        ->required();
+        .required();
     add_input(app, "MAP", options->map, "the map", "The deformed volume, with the vertices and cells of IN");
     add_format(app, options->format);
     add_drawing(app, options->picture, options->cut, "Draw a volume or a planar mesh");

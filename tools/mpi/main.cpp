@@ -27,7 +27,6 @@
 #include "mpi/processes.hpp"
 #include "shared/command_line.hpp"
 #include "shared/failure.hpp"
-#include "shared/help.hpp"
 #include "shared/interrupt.hpp"
 #include "shared/outputs.hpp"
 #include "shared/printable.hpp"
@@ -164,9 +163,9 @@ int agreed(const communicator& all, const ending& mine)
 /// What a command does, given the place of its report.
 using collective = std::function<exit_code(const communicator&, const char*)>;
 
-std::function<exit_code()> of_parsed(const communicator& all, const CLI::App& app, const collective& body)
+std::function<exit_code()> of_parsed(const communicator& all, const subcommand& app, const collective& body)
 {
-    return [&all, &app, body]
+    return [&all, app, body]
     {
         const char* place = nullptr;
         all.together(
@@ -179,7 +178,7 @@ std::function<exit_code()> of_parsed(const communicator& all, const CLI::App& ap
 }
 
 /// Of process 0 alone.
-ending described(const communicator& all, const CLI::App& app, const tools::command& words)
+ending described(const communicator& all, const subcommand& app, const tools::command& words)
 {
     return ended(
         [&]
@@ -195,42 +194,41 @@ ending described(const communicator& all, const CLI::App& app, const tools::comm
 
 ending run_program(const communicator& all, int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
-    command_line program("One volume over many processes: what `taut` does, under mpirun.", "taut-mpi");
-    program.set_version_flag("--version", "taut-mpi " TAUT_VERSION_STRING);
-    program.require_subcommand(1);
-    program.formatter(std::make_shared<wrapped_help>());
-    program.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
+    command_line program(
+        {.name = "taut-mpi",
+         .description = "One volume over many processes: what `taut` does, under mpirun.",
+         .version = "taut-mpi " TAUT_VERSION_STRING,
+         .footer = "exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                    "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written; 9 device, MPI "
                    "or PETSc failed;\n"
-                   "  130 interrupted (Ctrl-C), 143 terminated, with the best mesh written if there was one");
+                   "  130 interrupted (Ctrl-C), 143 terminated, with the best mesh written if there was one"});
     mpi_options deforming, smoothing;
     mpi_check_options checking;
-    auto& deform = *program.add_subcommand("deform", "Deform a volume under fixed and moved vertices");
+    const auto deform = program.add_subcommand("deform", "Deform a volume under fixed and moved vertices");
     declare_deform(deform, deforming);
-    auto& smooth = *program.add_subcommand("smooth", "Smooth a mesh: move vertices to improve its elements");
+    const auto smooth = program.add_subcommand("smooth", "Smooth a mesh: move vertices to improve its elements");
     declare_smooth(smooth, smoothing);
-    auto& check = *program.add_subcommand("check", "Certify that no tetrahedron of a volume is inverted");
+    const auto check = program.add_subcommand("check", "Certify that no tetrahedron of a volume is inverted");
     declare_check(check, checking);
     const auto complete = add_completion(program), man = add_man(program);
     try
     {
-        program.parse(argc, argv);
+        if (const auto text = program.parse(argc, argv))
+        {
+            if (all.rank() == 0) std::cout << *text << std::flush;
+            return {};
+        }
     }
-    catch (const CLI::Success& e) // --help, --version
+    catch (const argument_error& e)
     {
-        std::ostringstream text;
-        program.exit(e, text, std::cerr);
-        if (all.rank() == 0) std::cout << text.str() << std::flush;
-        return {};
+        return {exit_code::usage, std::string(e.what()) + "; " + e.remedy()};
     }
-    catch (const CLI::ParseError& e)
+    for (const auto& app : program.subcommands())
     {
-        std::string name = "taut-mpi";
-        for (const auto* app : program.get_subcommands()) name += ' ' + app->get_name();
-        return {exit_code::usage, std::string(e.what()) + "; `" + name + " --help` lists the options"};
+        if (!app.parsed()) continue;
+        if (app.name() == "completion") return described(all, app, complete);
+        if (app.name() == "man") return described(all, app, man);
     }
-    for (const auto& [name, words] : {std::pair("completion", complete), std::pair("man", man)})
-        if (const auto* const app = program.get_subcommand(name); app->parsed()) return described(all, *app, words);
     const auto shape = [launch](const mpi_options& o)
     {
         return [launch, &o](const communicator& c, const char* place)

@@ -147,9 +147,9 @@ checked check_ranged(const dist::impl::communicator& all, const dist::impl::rang
 
 } // namespace
 
-void declare_check(CLI::App& app, mpi_check_options& o)
+void declare_check(const subcommand& app, mpi_check_options& o)
 {
-    add_input(app, "MESH", o.input, "the input", meshes)->required();
+    add_input(app, "MESH", o.input, "the input", meshes).required();
     add_zone(app, o.zone);
     app.add_flag("--json", o.json, "Print JSON");
     app.footer(

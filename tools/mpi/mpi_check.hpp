@@ -3,11 +3,10 @@
 
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include <taut/impl/processes/communicator.hpp>
 
 #include "shared/exit_codes.hpp"
+#include "shared/options.hpp"
 
 namespace taut::tools::mpi
 {
@@ -20,7 +19,7 @@ struct mpi_check_options
     int zone = 0;
 };
 
-void declare_check(CLI::App& app, mpi_check_options& options);
+void declare_check(const subcommand& app, mpi_check_options& options);
 
 /// Certifies the elements of a volume: 0, or 4 where one is inverted or flat. Of all processes.
 exit_code run_check(const dist::impl::communicator& all, const mpi_check_options& options);

@@ -19,53 +19,46 @@ namespace taut::tools::mpi
 namespace
 {
 
-void declare_solver(CLI::App& app, mpi_options& o)
+void declare_solver(const subcommand& app, mpi_options& o)
 {
-    add_choice(app, "--preconditioner", o.solver.preconditioner,
-               std::vector<choice<dist::preconditioner>>{{"boomeramg", dist::preconditioner::boomeramg},
-                                                         {"gamg", dist::preconditioner::gamg},
-                                                         {"block-jacobi", dist::preconditioner::block_jacobi}},
-               "Preconditioner of the Newton systems");
-    add_choice(app, "--partition", o.solver.partition,
-               std::vector<choice<dist::partition>>{{"curve", dist::partition::curve},
-                                                    {"ptscotch", dist::partition::ptscotch}},
-               "Owners of vertices: ranges of a curve, or parts by PTScotch, with less between them");
+    add_choice<dist::preconditioner>(app, "--preconditioner", o.solver.preconditioner,
+                                     {{"boomeramg", dist::preconditioner::boomeramg},
+                                      {"gamg", dist::preconditioner::gamg},
+                                      {"block-jacobi", dist::preconditioner::block_jacobi}},
+                                     "Preconditioner of the Newton systems");
+    add_choice<dist::partition>(app, "--partition", o.solver.partition,
+                                {{"curve", dist::partition::curve}, {"ptscotch", dist::partition::ptscotch}},
+                                "Owners of vertices: ranges of a curve, or parts by PTScotch, with less between them");
     app.add_option("--petsc", o.solver.options,
                    "Options of PETSc for the preconditioner, in one argument, as \"-pc_type gamg\"")
-        ->type_name("OPTIONS");
+        .type_name("OPTIONS");
 }
 
-void declare_checkpoint(CLI::App& app, mpi_options& o)
+void declare_checkpoint(const subcommand& app, mpi_options& o)
 {
     add_output(app, "--checkpoint", o.checkpoint, {.made_of = "MESH", .may_be_folder = true},
                "Write the shape so far to this mesh, a folder for a case of OpenFOAM, from time to time; where it is "
                "there already, begin with it. Removed once the result is written")
-        ->type_name("FILE");
+        .type_name("FILE");
     app.add_option("--checkpoint-interval", o.checkpoint_interval, "Seconds between two of these")
-        ->type_name("S")
-        ->capture_default_str()
-        ->check(number_that([](double x) { return x >= 1; }, "must be at least 1"))
-        ->needs("--checkpoint");
+        .type_name("S")
+        .capture_default_str()
+        .check(number_that([](double x) { return x >= 1; }, "must be at least 1"))
+        .needs("--checkpoint");
 }
 
 /// Options of the serial program that mean nothing here.
-void leave_out(CLI::App& app, std::initializer_list<const char*> names)
+void leave_out(const subcommand& app, std::initializer_list<const char*> names)
 {
-    for (const char* name : names)
-    {
-        auto* const option = app.get_option_no_throw(name);
-        if (option == nullptr) continue;
-        dynamic_cast<command_line&>(*app.get_parent()).files.erase(option);
-        app.remove_option(option);
-    }
+    for (const char* name : names) app.remove(name);
 }
 
-void say(CLI::App& app, const std::string& mesh)
+void say(const subcommand& app, const std::string& mesh)
 {
-    app.get_option("MESH")->description(mesh);
-    dynamic_cast<command_line&>(*app.get_parent()).files.at(app.get_option("--output")).may_be_folder = true;
-    app.get_option("--output")
-        ->description("Mesh to write, in the format of the input: the same file, or pieces, with other coordinates");
+    app.describe("MESH", mesh);
+    app.use_of("--output").may_be_folder = true;
+    app.describe("--output",
+                 "Mesh to write, in the format of the input: the same file, or pieces, with other coordinates");
     app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written;\n"
                "  9 device, MPI or PETSc failed; 130 interrupted, 143 terminated");
@@ -97,7 +90,7 @@ std::string count_kinds(const std::array<std::int64_t, 8>& kinds)
     return text;
 }
 
-void declare_deform(CLI::App& app, mpi_options& o)
+void declare_deform(const subcommand& app, mpi_options& o)
 {
     tools::declare_deform(app, o.shape);
     leave_out(app, {"--picture", "--cut", "--refine", "--refined-map", "--thickness"});
@@ -106,7 +99,7 @@ void declare_deform(CLI::App& app, mpi_options& o)
     say(app, meshes);
 }
 
-void declare_smooth(CLI::App& app, mpi_options& o)
+void declare_smooth(const subcommand& app, mpi_options& o)
 {
     tools::declare_smooth(app, o.shape);
     leave_out(app, {"--picture", "--cut"});

@@ -5,10 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include <taut/impl/dist/solver_params.hpp>
 
+#include "shared/options.hpp"
 #include "volume/shape_options.hpp"
 #include "volume/volume_case.hpp"
 
@@ -36,7 +35,7 @@ inline constexpr const char* meshes =
 std::string count_kinds(const std::array<std::int64_t, 8>& kinds);
 
 /// Declare the options of either command, without those that are of one process.
-void declare_deform(CLI::App& app, mpi_options& options);
-void declare_smooth(CLI::App& app, mpi_options& options);
+void declare_deform(const subcommand& app, mpi_options& options);
+void declare_smooth(const subcommand& app, mpi_options& options);
 
 } // namespace taut::tools::mpi

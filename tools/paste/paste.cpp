@@ -371,56 +371,56 @@ private:
 
 } // namespace
 
-command add_paste(CLI::App& program, std::chrono::steady_clock::time_point launch)
+command add_paste(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<paste_options>();
-    auto& app = *program.add_subcommand("paste", "Cut a feature out of one surface and paste it on another");
+    const auto app = program.add_subcommand("paste", "Cut a feature out of one surface and paste it on another");
     const auto positive = number_that([](double x) { return x > 0 && std::isfinite(x); }, "is not positive");
     add_input(app, "--source", options->source, "the source", "Surface that has the feature: OBJ, OFF, PLY or STL")
-        ->required();
+        .required();
     app.add_option("--at", options->at, "Vertex of the source at the centre of the feature, from 0")
-        ->type_name("V")
-        ->check(whole_number());
+        .type_name("V")
+        .check(whole_number());
     app.add_option("--radius", options->radius, "Geodesic radius of the feature, in units of the source")
-        ->type_name("R")
-        ->check(positive);
+        .type_name("R")
+        .check(positive);
     add_input(app, "--region", options->region, "the file of triangles",
               "Triangles of the source, from 0, that are the feature, instead of --at and "
               "--radius");
-    add_input(app, "--target", options->target, "the target", "Surface to paste it on")->required();
+    add_input(app, "--target", options->target, "the target", "Surface to paste it on").required();
     app.add_option("--onto", options->onto, "Vertex of the target at the centre of the rim, from 0")
-        ->required()
-        ->type_name("V")
-        ->check(whole_number());
+        .required()
+        .type_name("V")
+        .check(whole_number());
     app.add_option("--rotate", options->degrees, "Rotate the feature about the normal of the target, counter-clockwise")
-        ->type_name("DEGREES")
-        ->check(number_that([](double x) { return std::isfinite(x); }, "is no angle"));
+        .type_name("DEGREES")
+        .check(number_that([](double x) { return std::isfinite(x); }, "is no angle"));
     app.add_option("--scale", options->pose.scale, "Scale of the feature: lengths in the result by those in the source")
-        ->type_name("S")
-        ->check(positive);
+        .type_name("S")
+        .check(positive);
     app.add_option("--softness", options->pose.softness,
                    "Softness: 0: the feature keeps its shape, the target bends; 1: its rim is "
                    "projected to the target, the feature bends")
-        ->type_name("0..1")
-        ->check(number_that([](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1"));
+        .type_name("0..1")
+        .check(number_that([](double x) { return x >= 0 && x <= 1; }, "is not from 0 to 1"));
     app.add_option("--reach", options->reach,
                    "Radius of the region of the target that may bend, relative to that of the "
                    "feature")
-        ->type_name("1.2..")
-        ->check(number_that([](double x) { return x >= 1.2 && std::isfinite(x); }, "is not 1.2 or more"));
+        .type_name("1.2..")
+        .check(number_that([](double x) { return x >= 1.2 && std::isfinite(x); }, "is not 1.2 or more"));
     add_output(app, "-o,--output", options->output, {.extensions = {".obj"}}, "Surface to write; - is standard output")
-        ->required()
-        ->type_name("OUT.obj");
+        .required()
+        .type_name("OUT.obj");
     app.add_option(
            "--triangles", options->triangles,
            "Remesh the feature from its map, with about this many triangles, fewer where more show nothing of the map")
-        ->type_name("N")
-        ->check(CLI::Range(1, 100'000'000));
+        .type_name("N")
+        .check_range(1, 100'000'000);
     add_output(app, "--map", options->map, {.extensions = {".exr", ".png"}},
                "Write the feature's map of positions: .exr floats, .png colours");
     app.add_option("--texels", options->texels, "Texels along the longer side of the map")
-        ->type_name("8..8192")
-        ->check(CLI::Range(8, 8192));
+        .type_name("8..8192")
+        .check_range(8, 8192);
     add_stats(app, options->stats);
     add_output(app, "--picture", options->picture, {.extensions = {".png"}}, "Draw source, target and result");
     add_output(app, "--render", options->render, {.extensions = {".png"}},

@@ -1,43 +1,39 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <initializer_list>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "shared/options.hpp"
 
 namespace taut::tools
 {
 
 /// A word and what it stands for.
 template <class Value>
-using choice = std::pair<std::string, Value>;
+struct choice
+{
+    const char* word;
+    Value value;
+};
 
 /// Adds an option that takes one of a few words; the first is the default and is written to `value` at once. The help
 /// shows the words as `a|b|c`; any other word is a usage error that lists them.
 template <class Value>
-CLI::Option* add_choice(CLI::App& app, const std::string& name, Value& value, std::vector<choice<Value>> choices,
-                        const std::string& help)
+option add_choice(const subcommand& app, const std::string& name, Value& value,
+                  std::initializer_list<choice<Value>> choices, const std::string& help)
 {
-    value = choices.front().second;
     std::vector<std::string> words;
-    std::string shown;
-    for (const auto& [word, meaning] : choices)
+    std::vector<Value> values;
+    for (const auto& one : choices)
     {
-        words.push_back(word);
-        shown += (shown.empty() ? "" : "|") + word;
+        words.emplace_back(one.word);
+        values.push_back(one.value);
     }
-    const std::string first = words.front();
-    const auto set = [&value, choices = std::move(choices)](const std::string& given)
-    {
-        for (const auto& [word, meaning] : choices)
-            if (word == given) value = meaning;
-    };
-    auto known = CLI::IsMember(std::move(words));
-    known.description(""); // the words already stand in the type name
-    return app.add_option_function<std::string>(name, set, help)->type_name(shown)->default_str(first)->check(known);
+    return app.add_choice(
+        name, words, [&value, values](std::size_t k) { value = values[k]; }, help);
 }
 
 } // namespace taut::tools

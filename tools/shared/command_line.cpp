@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "shared/command_line.hpp"
 
+#include <iostream>
+#include <sstream>
 #include <utility>
 
+#include "shared/arguments.hpp"
 #include "shared/companions.hpp"
+#include "shared/help.hpp"
 #include "shared/outputs.hpp"
 #include "shared/tile_names.hpp"
 
@@ -12,26 +16,6 @@ namespace taut::tools
 
 namespace
 {
-
-CLI::Validator dash_for(const char* stream)
-{
-    return {[=](std::string& given)
-            {
-                if (given == "-") given = stream;
-                return std::string(given.empty() ? "the name is empty; name a file" : "");
-            },
-            ""};
-}
-
-template <class Paths>
-CLI::Option* add_files(CLI::App& command, const std::string& name, Paths& paths, file_use use, const char* stream,
-                       const std::string& help)
-{
-    std::string type = "FILE";
-    for (const auto& e : use.extensions) type += (type.ends_with("FILE") ? "" : "|") + e;
-    auto* const option = command.add_option(name, paths, help)->transform(dash_for(stream))->type_name(type);
-    return declare_files(command, option, std::move(use));
-}
 
 /// Input of the k-th file of an option, where there is one for each.
 std::filesystem::path source_of(const CLI::App& command, const CLI::Option& option, const file_use& use, std::size_t k)
@@ -43,79 +27,99 @@ std::filesystem::path source_of(const CLI::App& command, const CLI::Option& opti
 
 } // namespace
 
-CLI::Option* declare_files(CLI::App& command, CLI::Option* option, file_use use)
+command_line::command_line(const program_text& text) : known_(std::make_unique<arguments>(text.description, text.name))
 {
-    dynamic_cast<command_line&>(*command.get_parent()).files.emplace(option, std::move(use));
-    return option;
+    if (!text.version.empty()) known_->set_version_flag("--version", text.version);
+    known_->require_subcommand(1);
+    known_->formatter(std::make_shared<wrapped_help>());
+    known_->footer(text.footer);
 }
 
-CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& path, const std::string& read_as,
-                       const std::string& help)
+command_line::~command_line() = default;
+
+subcommand command_line::add_subcommand(const std::string& name, const std::string& description)
 {
-    return add_files(command, name, path, {.read_as = read_as}, standard_input, help);
+    return subcommand(known_->add_subcommand(name, description));
 }
 
-CLI::Option* add_input(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
-                       const std::string& read_as, const std::string& help)
+std::optional<std::string> command_line::parse(int argc, const char* const* argv)
 {
-    return add_files(command, name, paths, {.read_as = read_as}, standard_input, help);
+    std::string name = known_->get_name();
+    if (const auto wrong = wrong_subcommand(*known_, argc, argv); !wrong.empty())
+        throw argument_error(wrong, '`' + name + " --help` lists them");
+    try
+    {
+        known_->parse(argc, argv);
+        return {};
+    }
+    catch (const CLI::Success& e) // --help, --version
+    {
+        std::ostringstream text;
+        known_->exit(e, text, std::cerr);
+        return text.str();
+    }
+    catch (const CLI::ParseError& e)
+    {
+        for (const auto* app : known_->get_subcommands()) name += ' ' + app->get_name();
+        const auto wrong = wrong_words(*known_);
+        throw argument_error(wrong.empty() ? e.what() : wrong, '`' + name + " --help` lists the options");
+    }
 }
 
-CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& path, const file_use& use,
-                       const std::string& help)
+bool command_line::accepts(const std::vector<std::string>& words)
 {
-    return add_files(command, name, path, use, standard_input, help);
+    try
+    {
+        known_->parse(std::vector<std::string>(words.rbegin(), words.rend()));
+        return true;
+    }
+    catch (const CLI::Error&) // --help is one, too
+    {
+        return false;
+    }
 }
 
-CLI::Option* add_output(CLI::App& command, const std::string& name, std::string& path, const file_use& use,
-                        const std::string& help)
+std::vector<subcommand> command_line::subcommands() const
 {
-    return add_files(command, name, path, use, standard_output, help);
+    std::vector<subcommand> all;
+    for (auto* app : known_->get_subcommands({})) all.emplace_back(app);
+    return all;
 }
 
-CLI::Option* add_output(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
-                        const file_use& use, const std::string& help)
-{
-    return add_files(command, name, paths, use, standard_output, help);
-}
-
-CLI::Option* add_stats(CLI::App& command, std::string& path)
-{
-    return add_output(command, "--stats", path, {.extensions = {".json"}}, "Write numbers as JSON");
-}
-
-std::vector<run_file> files_of(const CLI::App& command)
+std::vector<run_file> files_of(const subcommand& command)
 {
     std::vector<run_file> all;
-    const auto& uses = dynamic_cast<const command_line&>(*command.get_parent()).files;
-    for (const auto* option : command.get_options())
+    const auto& uses = arguments_of(command).files;
+    const auto& app = command.known();
+    for (auto* known : command.known().get_options())
     {
-        const auto found = uses.find(option);
+        const auto found = uses.find(known);
         if (found == uses.end()) continue;
         const file_use& use = found->second;
-        auto texts = option->results();
+        const option named(known);
+        auto texts = known->results();
         if (texts.empty()) texts.push_back(use.otherwise);
         for (std::size_t k = 0; k < texts.size(); ++k)
         {
             const std::string& text = texts[k];
             const std::string given = use.file_in ? use.file_in(text) : text;
             if (given.empty()) continue;
-            run_file file{option, &use, given, given, {}};
+            run_file file{named, &use, given, given, {}};
             // Tiles that are there; which of them a run writes, or needs, shows when it has read its surfaces.
             const auto tiles = use.tiles ? tile_files(given) : std::vector<std::filesystem::path>();
-            for (const auto& tile : tiles) all.push_back({option, &use, tile, tile, {}});
+            for (const auto& tile : tiles) all.push_back({named, &use, tile, tile, {}});
             if (file.is_read())
             {
                 if (tiles.empty()) all.push_back(file);
                 for (auto& path : companions_of(given, use.with_images))
-                    all.push_back({option, &use, given, std::move(path), {}});
+                    all.push_back({named, &use, given, std::move(path), {}});
                 continue;
             }
-            file.source = source_of(command, *option, use, k);
+            file.source = source_of(app, *known, use, k);
             for (auto& path : written_as(given, file.source))
-                all.push_back({option, &use, given, std::move(path), file.source});
+                all.push_back({named, &use, given, std::move(path), file.source});
             if (const auto name = name_of_invalid(given); use.may_fail && !name.empty())
-                all.push_back({option, &use, given, name, file.source});
+                all.push_back({named, &use, given, name, file.source});
         }
     }
     return all;

@@ -1,76 +1,69 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
-#include <functional>
-#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "shared/options.hpp"
 
 namespace taut::tools
 {
 
-/// Files that - means on the command line.
-inline constexpr const char *standard_input = "/dev/stdin", *standard_output = "/dev/stdout";
+class arguments;
 
-/// Use of the files of an option by a command.
-struct file_use
-{
-    /// Name of input files in messages: "the pins". Empty: the files are written.
-    std::string read_as = {};
-
-    bool tiles = false;       ///< a name with <UDIM> stands for the files of all tiles
-    bool with_images = false; ///< images that a model of glTF names beside itself are read, too
-
-    // Of files that are written:
-    std::vector<std::string> extensions = {}; ///< in small letters; none: any will do
-    std::string made_of = {};                 ///< the option whose k-th file the k-th one of this is made of
-    std::string otherwise = {};               ///< the file where the option is left out
-    bool in_place = false;                    ///< it may replace that file
-    bool may_fail = false;                    ///< name_of_invalid() is written where there is no valid map
-    bool may_be_folder = false;               ///< a mesh in pieces: the command judges the folder
-
-    /// The file in what is given, or nothing; none: what is given is the file.
-    std::function<std::string(const std::string&)> file_in = {};
-};
-
-/// The arguments of the program, which know of each option that names files what they are for. So all commands look at
-/// their files before they start, and batches know the files of a job.
-class command_line : public CLI::App
+/// The program was given arguments that are none of its own.
+class argument_error : public std::runtime_error
 {
 public:
-    using CLI::App::App;
+    argument_error(const std::string& what, std::string remedy) : runtime_error(what), remedy_(std::move(remedy)) {}
 
-    std::map<const CLI::Option*, file_use> files;
+    /// "`taut unwrap --help` lists the options"
+    const std::string& remedy() const { return remedy_; }
+
+private:
+    std::string remedy_;
 };
 
-/// Says what the files of an option are for. Each option that names files is declared so, or by the functions below.
-CLI::Option* declare_files(CLI::App& command, CLI::Option* option, file_use use);
+/// What the help of a program says beside its commands.
+struct program_text
+{
+    std::string name, description, version, footer;
+};
 
-/// Options that name files to read, one or several; - stands for standard input.
-CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& path, const std::string& read_as,
-                       const std::string& help);
-CLI::Option* add_input(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
-                       const std::string& read_as, const std::string& help);
-CLI::Option* add_input(CLI::App& command, const std::string& name, std::string& path, const file_use& use,
-                       const std::string& help);
+/// The command line of a program.
+class command_line
+{
+public:
+    explicit command_line(const program_text& text = {});
+    ~command_line();
+    command_line(command_line&&) = delete;
 
-/// Options that name files to write; - stands for standard output.
-CLI::Option* add_output(CLI::App& command, const std::string& name, std::string& path, const file_use& use,
-                        const std::string& help);
-CLI::Option* add_output(CLI::App& command, const std::string& name, std::vector<std::string>& paths,
-                        const file_use& use, const std::string& help);
+    subcommand add_subcommand(const std::string& name, const std::string& description);
 
-/// --stats
-CLI::Option* add_stats(CLI::App& command, std::string& path);
+    /// Reads the arguments of main(). Returns what is to be printed in place of a run, for --help and --version. Throws
+    /// argument_error.
+    std::optional<std::string> parse(int argc, const char* const* argv);
+
+    /// Reads arguments, without the program's name; whether they are those of a run.
+    bool accepts(const std::vector<std::string>& words);
+
+    /// All of them, in the order in which they were added.
+    std::vector<subcommand> subcommands() const;
+
+    const arguments& known() const { return *known_; }
+
+private:
+    std::unique_ptr<arguments> known_;
+};
 
 /// A file that a run reads or writes: one that it was given, or one that belongs to it.
 struct run_file
 {
-    const CLI::Option* option;
+    tools::option option;
     const file_use* use;
     std::filesystem::path given, path;
     std::filesystem::path source; ///< of what is written: what it is made of, or nothing
@@ -79,6 +72,6 @@ struct run_file
 };
 
 /// The files of a command whose arguments have been parsed, with all that belongs to them.
-std::vector<run_file> files_of(const CLI::App& command);
+std::vector<run_file> files_of(const subcommand& command);
 
 } // namespace taut::tools

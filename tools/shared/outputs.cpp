@@ -77,16 +77,10 @@ bool may_be_same_file(const known_file& a, const known_file& b)
     return a.identity == b.identity || is_tile(a, b) || is_tile(b, a);
 }
 
-/// As the user knows an option.
-std::string name_of(const CLI::Option& option)
-{
-    return option.get_snames().empty() ? option.get_name() : '-' + option.get_snames().front();
-}
-
 [[noreturn]] void refuse(const run_file& output, const std::string& reason)
 {
     const bool beside = output.path != output.given;
-    throw usage_error(name_of(*output.option) + ' ' + output.given.string() + ": " +
+    throw usage_error(output.option.name() + ' ' + output.given.string() + ": " +
                       (beside ? output.path.string() + ", which is written with it, " : "") + reason);
 }
 
@@ -120,7 +114,7 @@ bool require_place(const run_file& output)
     }
     catch (const io::io_error& e)
     {
-        throw usage_error(name_of(*output.option) + ": " + e.what());
+        throw usage_error(output.option.name() + ": " + e.what());
     }
 }
 
@@ -148,7 +142,7 @@ void require_no_input(const known_file& written, const known_file& read)
 void require_own(const run_file& output)
 {
     if (const auto stray = stray_companion(output.given, output.source); !stray.empty())
-        throw usage_error(name_of(*output.option) + ' ' + output.given.string() + ": " + stray.string() +
+        throw usage_error(output.option.name() + ' ' + output.given.string() + ": " + stray.string() +
                           " of another mesh would become a part of it; move it away, or choose another name");
     std::error_code ignored;
     if (output.path == output.given || output.path == name_of_invalid(output.given.string()) ||
@@ -174,7 +168,7 @@ outputs::outputs(std::span<const run_file> files)
         if (file.is_read() && file.given == standard_input)
         {
             if (standard)
-                throw usage_error(name_of(*file.option) + " -: standard input is " + name_of(*standard->option) +
+                throw usage_error(file.option.name() + " -: standard input is " + standard->option.name() +
                                   " already; name a file");
             standard = &file;
         }
@@ -184,7 +178,7 @@ outputs::outputs(std::span<const run_file> files)
         if (!fs::is_character_file(file.path, ignored)) // a terminal and /dev/null take anything
             for (const auto* other : before)
                 if (!(file.use->tiles && other->file.option == file.option) && may_be_same_file(*other, one))
-                    refuse(file, "is also the file of " + name_of(*other->file.option) + "; name another one");
+                    refuse(file, "is also the file of " + other->file.option.name() + "; name another one");
         before.push_back(&one);
         for (const auto& input : all)
             if (input.file.is_read()) require_no_input(one, input);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "shared/shared_options.hpp"
 
-#include <cmath>
 #include <limits>
 
 #include "shared/choices.hpp"
@@ -10,29 +9,7 @@
 namespace taut::tools
 {
 
-CLI::Validator number_that(bool (*holds)(double), const char* otherwise)
-{
-    return {[=](const std::string& text)
-            {
-                double x = 0;
-                if (!CLI::detail::lexical_cast(text, x) || std::isnan(x)) return text + " is no number";
-                return holds(x) ? std::string() : text + ' ' + otherwise;
-            },
-            ""};
-}
-
-CLI::Validator whole_number()
-{
-    return {[](const std::string& text)
-            {
-                int n = 0;
-                if (CLI::detail::lexical_cast(text, n) && n >= 0) return std::string();
-                return text + " is no whole number from 0 to " + std::to_string(std::numeric_limits<int>::max());
-            },
-            ""};
-}
-
-void add_format(CLI::App& app, io::surface_format& format)
+void add_format(const subcommand& app, io::surface_format& format)
 {
     add_choice<io::surface_format>(app, "--format", format,
                                    {{"auto", io::surface_format::automatic},
@@ -43,55 +20,53 @@ void add_format(CLI::App& app, io::surface_format& format)
                                    "Format of IN; auto: by its name, for - (standard input) by its first bytes");
 }
 
-void add_drawing(CLI::App& app, std::string& picture, std::string& cut, const std::string& help)
+void add_drawing(const subcommand& app, std::string& picture, std::string& cut, const std::string& help)
 {
     add_output(app, "--picture", picture, {.extensions = {".png", ".svg"}}, help + ", coloured by distortion");
     app.add_option("--cut", cut,
                    "Show the inside of a volume in the picture: without the elements whose centre is beyond a plane "
                    "across an axis, x, y, z or x:FRACTION of the extent, or nx,ny,nz,d: nx x + ny y + nz z = d")
-        ->type_name("PLANE");
+        .type_name("PLANE");
 }
 
-void add_fix(CLI::App& app, std::vector<std::string>& groups)
+void add_fix(const subcommand& app, std::vector<std::string>& groups)
 {
-    app.add_option("--fix", groups, "Fix the vertices of a group; may be repeated")->type_name("GROUP");
+    app.add_option("--fix", groups, "Fix the vertices of a group; may be repeated").type_name("GROUP");
 }
 
-void add_zone(CLI::App& app, int& zone)
+void add_zone(const subcommand& app, int& zone)
 {
     app.add_option("--zone", zone, "Zone of a SU2 file with several, from 1; others are not changed")
-        ->type_name("N")
-        ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+        .type_name("N")
+        .check_range(1, std::numeric_limits<int>::max());
 }
 
-void add_refine(CLI::App& app, bool& refine, std::string& map, const std::string& help)
+void add_refine(const subcommand& app, bool& refine, std::string& map, const std::string& help)
 {
     app.add_flag("--refine", refine, help);
     add_output(app, "--refined-map", map, {.extensions = {".csv"}},
                "Write which element of the input each element is a part of, as element,of")
-        ->needs("--refine");
+        .needs("--refine");
 }
 
-void add_device(CLI::App& app, std::string& device)
+void add_device(const subcommand& app, std::string& device)
 {
     app.add_option(
            "--device", device,
            "Number or part of the name of an OpenCL device, see `taut devices`; without it, $TAUT_DEVICE counts")
-        ->type_name("D")
-        ->check(
-            CLI::Validator([](const std::string& text)
-                           { return text.empty() ? "there is no device without a name; leave the option out" : ""; },
-                           ""));
+        .type_name("D")
+        .check([](const std::string& text)
+               { return text.empty() ? "there is no device without a name; leave the option out" : ""; });
 }
 
-void add_time_limit(CLI::App& app, double& seconds, const std::string& help)
+void add_time_limit(const subcommand& app, double& seconds, const std::string& help)
 {
     app.add_option("--time-limit", seconds, help)
-        ->type_name("S")
-        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
+        .type_name("S")
+        .check(number_that([](double x) { return x > 0; }, "must be positive"));
 }
 
-void add_progress(CLI::App& app, std::string& progress, bool& quiet)
+void add_progress(const subcommand& app, std::string& progress, bool& quiet)
 {
     add_choice<std::string>(app, "--progress", progress, {{"auto", "auto"}, {"json", "json"}, {"none", "none"}},
                             "Progress on standard error: a bar if it is a terminal, one JSON object per "

@@ -61,10 +61,10 @@ exit_code run(const untangle_options& options, const outputs& files, std::chrono
 
 } // namespace
 
-command add_untangle(CLI::App& program, std::chrono::steady_clock::time_point launch)
+command add_untangle(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<untangle_options>();
-    declare(*program.add_subcommand("untangle", "Make a map, or a volume, injective with some vertices fixed"),
+    declare(program.add_subcommand("untangle", "Make a map, or a volume, injective with some vertices fixed"),
             *options);
     return [options, launch](const outputs& files) { return run(*options, files, launch); };
 }

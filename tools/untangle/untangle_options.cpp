@@ -29,32 +29,32 @@ void require_problem_options(const untangle_options& o)
 
 } // namespace
 
-void declare(CLI::App& app, untangle_options& o)
+void declare(const subcommand& app, untangle_options& o)
 {
     add_input(
         app, "PROBLEM", o.input, "the input",
         "Problem (rest shape, initial map, cells and fixed vertices, as text), - is standard input; or a volume, or "
         "a mesh of the plane, with inverted elements: .mesh .msh .vtk .vtu .node .su2")
-        ->required();
+        .required();
     add_output(app, "-o,--output", o.output, {.made_of = "PROBLEM", .may_fail = true},
                "Output; of a problem the map, one vertex per line, - is standard output; of a "
                "volume the same file with other coordinates. OUT.invalid if it is not injective")
-        ->required()
-        ->type_name("OUT");
+        .required()
+        .type_name("OUT");
     add_input(app, "--rest", o.rest, "the shape at rest",
               "The volume at rest, the same vertices and cells; without it the target shapes "
               "are regular elements");
     add_input(app, "--pins", o.pins, "the file of pins",
               "Pins of vertices of the volume: vertex,x,y,z, vertices from 0")
-        ->type_name("FILE.csv");
+        .type_name("FILE.csv");
     add_fix(app, o.fixed);
     add_zone(app, o.zone);
-    add_choice(app, "--boundary", o.boundary,
-               std::vector<choice<untangle_boundary>>{{"auto", untangle_boundary::automatic},
-                                                      {"fixed", untangle_boundary::fixed},
-                                                      {"free", untangle_boundary::free}},
-               "Fix the boundary of the volume, or not; auto: fixed unless there are --pins or "
-               "--fix");
+    add_choice<untangle_boundary>(app, "--boundary", o.boundary,
+                                  {{"auto", untangle_boundary::automatic},
+                                   {"fixed", untangle_boundary::fixed},
+                                   {"free", untangle_boundary::free}},
+                                  "Fix the boundary of the volume, or not; auto: fixed unless there are --pins or "
+                                  "--fix");
     add_refine(app, o.refine, o.refined_map,
                "Split elements where it is proved that there is no injective map otherwise, or "
                "none was found; the output then has more vertices, the given ones first. OUT of "

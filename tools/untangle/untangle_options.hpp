@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include "shared/options.hpp"
 
 namespace taut::tools
 {
@@ -32,7 +32,7 @@ struct untangle_options
 };
 
 /// Declares the options; they are filled when the program's arguments are parsed.
-void declare(CLI::App& app, untangle_options& options);
+void declare(const subcommand& app, untangle_options& options);
 
 /// Throws usage_error for options that do not fit together.
 void check(const untangle_options& options);

@@ -254,10 +254,10 @@ private:
 
 } // namespace
 
-command add_unwrap(CLI::App& program, std::chrono::steady_clock::time_point launch)
+command add_unwrap(command_line& program, std::chrono::steady_clock::time_point launch)
 {
     const auto options = std::make_shared<unwrap_options>();
-    auto& app = *program.add_subcommand("unwrap", "Flatten a surface with little distortion and without folds");
+    const auto app = program.add_subcommand("unwrap", "Flatten a surface with little distortion and without folds");
     declare(app, *options);
     app.footer("exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure;\n"

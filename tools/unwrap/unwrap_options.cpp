@@ -17,7 +17,7 @@ namespace taut::tools
 namespace
 {
 
-void declare_map(CLI::App& app, unwrap_options& o)
+void declare_map(const subcommand& app, unwrap_options& o)
 {
     add_choice<energy_kind>(
         app, "--energy", o.energy,
@@ -57,7 +57,7 @@ void declare_map(CLI::App& app, unwrap_options& o)
               "Pins and springs, one per line: vertex,u,v[,weight]; from 0, in the order of "
               "the file; without a weight a pin, met exactly, with one a spring; an empty u or "
               "v is free")
-        ->type_name("FILE.csv");
+        .type_name("FILE.csv");
     app.add_flag("--cut", o.cut,
                  "Cut a surface that is no disk open along short seams: closed ones, handles, between boundaries");
     app.add_flag("--holes", o.holes, "Accept surfaces with holes; the longest boundary is the outer one");
@@ -65,7 +65,7 @@ void declare_map(CLI::App& app, unwrap_options& o)
                  "Keep the boundary from crossing itself, so that no two triangles of the map overlap");
 }
 
-void declare_solver(CLI::App& app, unwrap_options& o)
+void declare_solver(const subcommand& app, unwrap_options& o)
 {
     add_choice<solver_kind>(app, "--solver", o.solver,
                             {{"newton", solver_kind::newton},
@@ -76,14 +76,14 @@ void declare_solver(CLI::App& app, unwrap_options& o)
                             "Newton's method or limited-memory BFGS, both with multigrid; plain BFGS; the paper's "
                             "conjugate gradient; gradient descent");
     app.add_option("--iterations", o.iterations, "Stop after N steps")
-        ->type_name("N")
-        ->check(whole_number())
-        ->capture_default_str();
+        .type_name("N")
+        .check(whole_number())
+        .capture_default_str();
     app.add_option("--tolerance", o.tolerance,
                    "Stop at this relative gradient, below 1, or at a negligible Newton decrement; "
                    "0: never. Default: 1e-6, or a total decrease of at most 1e-4 over five steps")
-        ->type_name("T")
-        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"));
+        .type_name("T")
+        .check(number_that([](double x) { return x >= 0; }, "must not be negative"));
     add_time_limit(app, o.time_limit, "Stop after S seconds, with the best map so far (exit code 8)");
     add_choice<taut::precision>(
         app, "--precision", o.precision,
@@ -95,7 +95,7 @@ void declare_solver(CLI::App& app, unwrap_options& o)
     add_device(app, o.device);
 }
 
-void declare_reports(CLI::App& app, unwrap_options& o)
+void declare_reports(const subcommand& app, unwrap_options& o)
 {
     add_stats(app, o.stats);
     add_output(app, "--picture", o.picture, {.extensions = {".png", ".svg"}},
@@ -111,16 +111,16 @@ void declare_reports(CLI::App& app, unwrap_options& o)
 
 } // namespace
 
-void declare(CLI::App& app, unwrap_options& o)
+void declare(const subcommand& app, unwrap_options& o)
 {
     add_input(app, "IN", o.input, "the input",
               "Surface: OBJ, OFF, PLY or STL; - is standard input; cut open along the seams of its vt if it is no disk")
-        ->required();
+        .required();
     add_output(app, "-o,--output", o.output,
                {.extensions = {".obj"}, .made_of = "IN", .in_place = true, .may_fail = true},
                "OBJ to write: the file as it is, with new vt; - is standard output, here and below")
-        ->required()
-        ->type_name("OUT.obj");
+        .required()
+        .type_name("OUT.obj");
     add_format(app, o.format);
     declare_map(app, o);
     declare_solver(app, o);

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include <taut/impl/io/read_surface.hpp>
 #include <taut/impl/map/parameterize_params.hpp>
+
+#include "shared/options.hpp"
 
 namespace taut::tools
 {
@@ -69,7 +69,7 @@ struct unwrap_options
 };
 
 /// Declares the options; they are filled when the program's arguments are parsed.
-void declare(CLI::App& app, unwrap_options& options);
+void declare(const subcommand& app, unwrap_options& options);
 
 /// Throws usage_error for options that do not fit together.
 void check(const unwrap_options& options);

@@ -82,47 +82,45 @@ exit_code serve(const view_options& options)
 
 } // namespace
 
-command add_view(CLI::App& program)
+command add_view(command_line& program)
 {
     const auto options = std::make_shared<view_options>();
-    auto& app =
-        *program.add_subcommand("view", "Edit a map or shape interactively in a browser, on a page that only this "
-                                        "machine can open");
-    add_input(app, "IN", options->from.path, "the input", "Surface, volume or planar mesh")->required();
+    const auto app =
+        program.add_subcommand("view", "Edit a map or shape interactively in a browser, on a page that only this "
+                                       "machine can open");
+    add_input(app, "IN", options->from.path, "the input", "Surface, volume or planar mesh").required();
     add_format(app, options->from.format);
     add_input(app, "--pins", options->from.pins, "the pins", "First pins and springs, as for unwrap and deform")
-        ->type_name("FILE.csv");
+        .type_name("FILE.csv");
     auto& feature = options->from.feature;
-    auto* source = add_input(app, "--source", feature.source, "the source",
-                             "Source surface of a feature to be pasted on IN, as by `taut paste`");
+    const option source = add_input(app, "--source", feature.source, "the source",
+                                    "Source surface of a feature to be pasted on IN, as by `taut paste`");
     app.add_option("--at", feature.at, "Vertex of the source at the centre of the feature, from 0")
-        ->type_name("V")
-        ->needs(source);
+        .type_name("V")
+        .needs(source);
     app.add_option("--radius", feature.radius, "Geodesic radius of the feature, in units of the source")
-        ->type_name("R")
-        ->needs(source);
-    app.add_option("--onto", feature.onto, "Initial vertex of the feature on IN, from 0")
-        ->type_name("V")
-        ->needs(source);
+        .type_name("R")
+        .needs(source);
+    app.add_option("--onto", feature.onto, "Initial vertex of the feature on IN, from 0").type_name("V").needs(source);
     app.add_option("--scale", feature.scale, "Scale of the feature: lengths in the result by those in the source")
-        ->type_name("S")
-        ->needs(source);
+        .type_name("S")
+        .needs(source);
     app.add_option(
            "--triangles", feature.triangles,
            "Remesh the feature from its map, with about this many triangles, each time that its rim is attached")
-        ->type_name("N")
-        ->check(CLI::Range(1, 100'000'000))
-        ->needs(source);
+        .type_name("N")
+        .check_range(1, 100'000'000)
+        .needs(source);
     app.add_flag("--holes", options->from.holes, "Accept surfaces with holes");
     app.add_flag("--shell", options->from.shell, "Deform the surface in space, as a thin shell");
     app.add_option("--port", options->port, "Port of 127.0.0.1; 0: a free one")
-        ->type_name("N")
-        ->check(CLI::Range(0, 65535))
-        ->capture_default_str();
+        .type_name("N")
+        .check_range(0, 65535)
+        .capture_default_str();
     app.add_option("--frame", options->frame, "Milliseconds of work per frame")
-        ->type_name("MS")
-        ->check(number_that([](double x) { return x >= 0; }, "must not be negative"))
-        ->capture_default_str();
+        .type_name("MS")
+        .check(number_that([](double x) { return x >= 0; }, "must not be negative"))
+        .capture_default_str();
     app.add_flag("--no-browser", options->no_browser, "Only print the address");
     add_zone(app, options->from.zone);
     add_device(app, options->device);

@@ -21,25 +21,25 @@ namespace
 {
 
 /// Options that both commands have. usual: the tolerance without an option
-void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
+void declare_shared(const subcommand& app, shape_options& o, const std::string& usual)
 {
     add_input(app, "MESH", o.input, "the input",
               std::string("Tetrahedra, or triangles of the plane: .mesh .msh .vtk .vtu .node .su2 .prob") +
                   (o.smoothing ? "" : "; or a surface in space: .obj .off .ply .stl"))
-        ->required();
+        .required();
     add_output(app, "-o,--output", o.output, {.made_of = "MESH"},
                "Mesh to write, in the format of the input: the same file with other coordinates" +
                    std::string(o.smoothing ? "" : "; of a surface in space .obj, - is standard output"))
-        ->required()
-        ->type_name("OUT");
+        .required()
+        .type_name("OUT");
     add_fix(app, o.fixed);
     add_zone(app, o.zone);
     app.add_option("--tolerance", o.tolerance,
                    "Stop at this relative gradient, below 1, or at a negligible Newton decrement; "
                    "0: never. Default: " +
                        usual)
-        ->type_name("T")
-        ->check(number_that([](double x) { return x >= 0 && x < 1; }, "must be at least 0 and below 1"));
+        .type_name("T")
+        .check(number_that([](double x) { return x >= 0 && x < 1; }, "must be at least 0 and below 1"));
     add_time_limit(app, o.time_limit, "Stop after S seconds, with the best mesh so far");
     add_device(app, o.device);
     add_stats(app, o.stats);
@@ -52,51 +52,50 @@ void declare_shared(CLI::App& app, shape_options& o, const std::string& usual)
 
 } // namespace
 
-void declare_deform(CLI::App& app, shape_options& o)
+void declare_deform(const subcommand& app, shape_options& o)
 {
     declare_shared(app, o, "1e-6");
     add_input(app, "--pins", o.pins, "the file of pins", "Pins and springs: vertex,x,y,z[,weight], vertices from 0")
-        ->type_name("FILE.csv");
-    auto* const moves =
+        .type_name("FILE.csv");
+    const option moves =
         app.add_option(
                "--move", o.moves,
                "Move a group: GROUP=FILE.csv (vertex,x,y,z), GROUP:translate:x,y,z, GROUP:rotate:ax,ay,az,degrees "
                "or GROUP:scale:factor, about its middle")
-            ->type_name("MOVE");
+            .type_name("MOVE");
     declare_files(app, moves, {.read_as = "the file of --move", .file_in = file_of_move});
     add_input(app, "--rest", o.rest, "the shape at rest",
               "The mesh at rest, if the input is not: the same vertices and cells");
-    add_choice(app, "--energy", o.energy,
-               std::vector<choice<shape_energy>>{{"isometric", shape_energy::isometric},
-                                                 {"shape", shape_energy::shape},
-                                                 {"volume", shape_energy::volume},
-                                                 {"neo-hookean", shape_energy::neo_hookean}},
-               "Energy, which preserves lengths, angles, volumes and lengths, or that of rubber");
+    add_choice<shape_energy>(app, "--energy", o.energy,
+                             {{"isometric", shape_energy::isometric},
+                              {"shape", shape_energy::shape},
+                              {"volume", shape_energy::volume},
+                              {"neo-hookean", shape_energy::neo_hookean}},
+                             "Energy, which preserves lengths, angles, volumes and lengths, or that of rubber");
     add_refine(app, o.refine, o.refined_map,
                "Split elements where it is proved that there is no valid shape otherwise; the "
                "output then has more vertices, the given ones first");
     app.add_option("--thickness", o.thickness,
                    "Thickness of a surface in space (.obj .off .ply .stl), in its lengths: thick "
                    "ones arch, thin ones crease. Default: its mean edge")
-        ->type_name("H")
-        ->check(number_that([](double x) { return x > 0; }, "must be positive"));
+        .type_name("H")
+        .check(number_that([](double x) { return x > 0; }, "must be positive"));
 }
 
-void declare_smooth(CLI::App& app, shape_options& o)
+void declare_smooth(const subcommand& app, shape_options& o)
 {
     o.smoothing = true;
     declare_shared(app, o, "1e-4");
-    add_choice(app, "--boundary", o.boundary,
-               std::vector<choice<smooth_boundary>>{{"sliding", smooth_boundary::sliding},
-                                                    {"fixed", smooth_boundary::fixed},
-                                                    {"free", smooth_boundary::free}},
-               "Treatment of the boundary");
-    add_choice(app, "--interfaces", o.free_interfaces, std::vector<choice<bool>>{{"kept", false}, {"free", true}},
-               "Treatment of inner faces between regions or with a label: kept ones slide "
-               "within their flat parts, as do pieces of the boundary");
+    add_choice<smooth_boundary>(
+        app, "--boundary", o.boundary,
+        {{"sliding", smooth_boundary::sliding}, {"fixed", smooth_boundary::fixed}, {"free", smooth_boundary::free}},
+        "Treatment of the boundary");
+    add_choice<bool>(app, "--interfaces", o.free_interfaces, {{"kept", false}, {"free", true}},
+                     "Treatment of inner faces between regions or with a label: kept ones slide "
+                     "within their flat parts, as do pieces of the boundary");
     app.add_option("--worst", o.worst_exponent, "Exponent of the energy: 1 improves the mean, more the worst elements")
-        ->type_name("1..8")
-        ->check(CLI::Range(1, 8));
+        .type_name("1..8")
+        .check_range(1, 8);
 }
 
 bool names_surface(const std::string& path)

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include <taut/impl/map/smooth.hpp>
+
+#include "shared/options.hpp"
 
 namespace taut::tools
 {
@@ -55,8 +55,8 @@ inline constexpr const char* nothing_held =
 std::string kept_interfaces_note(std::uint64_t vertices);
 
 /// Declare the options of either command; they are filled when the program's arguments are parsed.
-void declare_deform(CLI::App& app, shape_options& options);
-void declare_smooth(CLI::App& app, shape_options& options);
+void declare_deform(const subcommand& app, shape_options& options);
+void declare_smooth(const subcommand& app, shape_options& options);
 
 /// Returns whether a file is one of a surface in space, by its extension.
 bool names_surface(const std::string& path);

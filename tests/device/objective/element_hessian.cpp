@@ -15,6 +15,7 @@
 #include <taut/impl/mesh/tetrahedron.hpp>
 #include <taut/impl/mesh/triangle.hpp>
 #include <taut/impl/objective/element_hessian.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/symbolic/evaluate.hpp>
 
 namespace

@@ -13,6 +13,7 @@
 
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/objective/map_evaluator.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 
 namespace
 {

@@ -13,7 +13,7 @@
 #include <taut/impl/energy/algebra.hpp>
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/objective/map_objective.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/solve/minimize.hpp>
 #include <taut/impl/start/barycentric_map.hpp>
 

@@ -10,7 +10,7 @@
 #include <taut/impl/energy/shape.hpp>
 #include <taut/impl/measure/rigid_motion.hpp>
 #include <taut/impl/objective/mesh_levels.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/solve/minimize.hpp>
 
 namespace

@@ -20,7 +20,7 @@
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/exact/certify.hpp>
 #include <taut/impl/mesh/first_flip.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/solve/minimize.hpp>
 
 namespace

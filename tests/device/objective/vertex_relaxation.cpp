@@ -14,6 +14,7 @@
 #include <taut/impl/energy/algebra.hpp>
 #include <taut/impl/energy/isometric.hpp>
 #include <taut/impl/objective/vertex_relaxation.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 
 namespace
 {

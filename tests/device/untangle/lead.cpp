@@ -10,6 +10,7 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
+#include <taut/impl/objective/volume_objective.hpp>
 #include <taut/impl/untangle/untangle.hpp>
 
 namespace

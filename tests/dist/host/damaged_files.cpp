@@ -11,6 +11,7 @@
 
 #include <dist/volume_files.hpp>
 #include <taut/impl/dist_io/open_volume.hpp>
+#include <taut/impl/dist_io/tokens.hpp>
 
 namespace taut::test
 {

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <taut/impl/edit/geodesic_distances.hpp>
 #include <taut/impl/edit/region.hpp>
 #include <taut/impl/mesh/validate.hpp>
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include <taut/impl/compute/gather.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/objective/volume_objective.hpp>
 
 namespace taut::dist::impl
 {

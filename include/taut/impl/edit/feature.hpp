@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <span>
-#include <utility>
 
-#include <taut/impl/edit/surface/split_chords.hpp>
+#include <taut/impl/edit/region.hpp>
 
 namespace taut::impl
 {
@@ -61,30 +58,8 @@ struct feature
     feature tessellate(queue& q, const impl::feature_map& map, std::span<const vec2> uv, idx triangles) const;
 };
 
-inline feature::feature(impl::surface_region of) : region(impl::split_chords(std::move(of)))
-{
-    const auto& rim = region.rim;
-    const auto at = [&](std::size_t i) -> const vec3&
-    { return region.surface.points()[static_cast<std::size_t>(rim[i % rim.size()])]; };
-    double length = 0;
-    for (std::size_t i = 0; i < rim.size(); ++i)
-    {
-        const double edge = glm::distance(at(i), at(i + 1));
-        centre += edge / 2 * (at(i) + at(i + 1));
-        length += edge;
-    }
-    centre /= length;
-    vec3 area(0.0); // twice the vector area of the rim (Newell)
-    for (std::size_t i = 0; i < rim.size(); ++i)
-    {
-        area += glm::cross(at(i) - centre, at(i + 1) - centre);
-        radius = std::max(radius, glm::distance(at(i), centre));
-    }
-    if (!(glm::length(area) > 1e-6 * length * length))
-        throw region_error(
-            region_error::flat, {},
-            "the rim of the region encloses no area, so that its base has no direction; choose another one");
-    normal = glm::normalize(area);
-}
-
 } // namespace taut
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/edit/feature.ipp>
+#endif

@@ -134,7 +134,9 @@ private:
 } // namespace taut
 
 #ifdef TAUT_IMPLEMENTATION
+// First, or the system that they include would include them.
+#include <taut/impl/edit/rbf.ipp>
+
 #include <taut/impl/edit/parameterize_feature.ipp>
 #include <taut/impl/edit/paste.ipp>
-#include <taut/impl/edit/rbf.ipp>
 #endif

@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <cerrno>
-#include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <string>
-#include <system_error>
-
-#if defined(__unix__) || defined(__APPLE__)
-#include <sys/resource.h>
-#include <unistd.h>
-#endif
 
 #include <taut/impl/io/file/file_target.hpp>
 #include <taut/impl/io/file/open_file.hpp>
@@ -26,61 +16,18 @@ namespace taut::io::impl
 inline constexpr const char* a_folder = "is a folder; name a file";
 
 /// Null, with errno, if it cannot be opened. What is open already (/dev/stdin) is read on from where it is.
-inline open_file open_to_read(const std::filesystem::path& path)
-{
-    errno = 0;
-    if (const int number = open_file_number(path); number >= 0) return open_number(number, "rb");
-    return open_name(path, "rb");
-}
+open_file open_to_read(const std::filesystem::path& path);
 
 /// Maximum number of bytes that read_file reads by default: a quarter of the machine's memory, or of the limit of the
 /// process (ulimit -v), as a device or a pipe may be endless.
-inline std::uint64_t most_bytes_to_read()
-{
-#if defined(__unix__) || defined(__APPLE__)
-    const auto pages = ::sysconf(_SC_PHYS_PAGES), page = ::sysconf(_SC_PAGESIZE);
-    std::uint64_t memory =
-        pages > 0 && page > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page) : UINT64_MAX;
-    rlimit limit{};
-    if (::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-        memory = std::min<std::uint64_t>(memory, limit.rlim_cur);
-    return memory / 4;
-#else
-    return std::uint64_t(16) << 30;
-#endif
-}
+std::uint64_t most_bytes_to_read();
 
 /// All bytes of a file, of a pipe or of what is open as /dev/stdin. most: more than that is an error.
 /// Throws io_error.
-inline std::string read_file(const std::filesystem::path& path, std::uint64_t most = most_bytes_to_read())
-{
-    const auto fail = [&](int number)
-    { throw io_error(path.string(), std::generic_category().message(number != 0 ? number : EIO)); };
-    const auto check_size = [&](std::uint64_t size)
-    {
-        if (size > most)
-            throw io_error(path.string(), "has more than " + std::to_string(most >> 20) +
-                                              " MiB, the most that is read with the memory there is");
-    };
-    std::error_code unknown;
-    if (std::filesystem::is_directory(path, unknown)) throw io_error(path.string(), a_folder);
-    const auto file = impl::open_to_read(path);
-    if (!file) fail(errno);
-
-    // The size is a hint: a pipe has none, and a file may grow meanwhile.
-    const auto size = std::filesystem::file_size(path, unknown);
-    if (!unknown) check_size(size);
-    std::string text(unknown ? 1 << 16 : static_cast<std::size_t>(size) + 1, '\0');
-    std::size_t used = 0;
-    while (const std::size_t n = std::fread(text.data() + used, 1, text.size() - used, file.get()))
-    {
-        used += n;
-        check_size(used);
-        if (used == text.size()) text.resize(static_cast<std::size_t>(std::min<std::uint64_t>(2 * used, most + 1)));
-    }
-    if (std::ferror(file.get()) != 0) fail(errno);
-    text.resize(used);
-    return text;
-}
+std::string read_file(const std::filesystem::path& path, std::uint64_t most = most_bytes_to_read());
 
 } // namespace taut::io::impl
+
+#ifdef TAUT_IMPLEMENTATION
+#include <taut/impl/io/read_file.ipp>
+#endif

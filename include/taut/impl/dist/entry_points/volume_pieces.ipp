@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <utility>
 
-#include <taut/impl/dist_io/open_volume.hpp>
+#include <taut/impl/dist_io/open_volume.ipp>
 #include <taut/impl/dist_io/piece_shapes.hpp>
 #include <taut/impl/dist_io/whole_volume.hpp>
 

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include <taut/impl/edit/region.hpp>
+#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/mesh/facets.hpp>
 
 namespace taut::impl
 {
