@@ -133,6 +133,7 @@ TEST_CASE("no_overlap: where time ends it, it is time that is told")
     const auto m = winding_ramp();
     int asked = 0;
     const auto count = [&](const progress&) { return ++asked > 0; };
+    REQUIRE(parameterize(q, m, {.no_overlap = true})); // kernels are built
     const budget clock;
     REQUIRE(parameterize(q, m, {}, {.observer = count}));
     const int before = std::exchange(asked, 0);
