@@ -3,7 +3,7 @@
 # found, by clang++, which takes half of GCC's time for that. Extended tests are compiled by the compiler of the release.
 set(taut_quick_flags $<$<CONFIG:Release>:-O0>)
 set(taut_quick_compiler "")
-if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT WIN32 AND NOT TAUT_EXTENDED)
+if(TAUT_TESTS AND CMAKE_CXX_COMPILER_ID STREQUAL GNU AND NOT WIN32 AND NOT TAUT_EXTENDED)
     find_program(TAUT_QUICK_CXX NAMES clang++ clang++-14 clang++-15 clang++-16 clang++-19)
     if(TAUT_QUICK_CXX AND NOT DEFINED TAUT_QUICK_CXX_WORKS)
         file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/probe.cpp CONTENT "#include <vector>\nint main() {}\n")
