@@ -3,7 +3,7 @@
 add_executable(taut_vectorized ${CMAKE_CURRENT_LIST_DIR}/vectorized.cpp)
 target_include_directories(taut_vectorized PRIVATE ${PROJECT_SOURCE_DIR}/tests)
 target_link_libraries(taut_vectorized PRIVATE taut_strict taut::taut)
-target_compile_options(taut_vectorized PRIVATE $<$<CONFIG:Release>:-O0>)
+taut_compile_quickly(taut_vectorized)
 add_test(NAME device.vectorized
          COMMAND sh ${CMAKE_CURRENT_LIST_DIR}/vectorized.sh $<TARGET_FILE:taut_vectorized>
                  ${CMAKE_BINARY_DIR}/pocl/vectorized)

@@ -14,6 +14,7 @@
 
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 #include <taut/impl/atlas/chart_start.hpp>
 #include <taut/impl/atlas/flatten_charts.hpp>
@@ -131,7 +132,7 @@ void check_maps(const surfaces& parts, const chart_mesh& charts, const flattened
 
 TEST_CASE("flatten_charts: charts of every kind are valid, with the energies that parameterize finds")
 {
-    queue q;
+    queue q(test::shared_context());
     const surfaces parts = kinds();
     const auto charts = charts_of(parts);
     const auto flat = flatten_charts(q, charts);
@@ -147,7 +148,7 @@ TEST_CASE("flatten_charts: charts of every kind are valid, with the energies tha
 
 TEST_CASE("flatten_charts: the energy is that of Newton's method on the host")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::bumpy(test::sized(10, 4));
     const auto charts = charts_of({m});
     const auto flat = flatten_charts(q, charts, {.tolerance = 1e-10});
@@ -161,7 +162,7 @@ TEST_CASE("flatten_charts: the energy is that of Newton's method on the host")
 
 TEST_CASE("flatten_charts: by default energies are within 1e-4 of their minima")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto charts = charts_of(kinds());
     const auto usual = flatten_charts(q, charts), exact = flatten_charts(q, charts, {.tolerance = 1e-12});
     for (std::size_t k = 0; k < usual.charts.size(); ++k)
@@ -173,7 +174,7 @@ TEST_CASE("flatten_charts: by default energies are within 1e-4 of their minima")
 
 TEST_CASE("flatten_charts: 140 charts take the launches of a few, and each has the map that it has alone")
 {
-    queue q;
+    queue q(test::shared_context());
     const surfaces few = kinds();
     surfaces many;
     const std::size_t count = test::sized(140, 20);
@@ -193,7 +194,7 @@ TEST_CASE("flatten_charts: 140 charts take the launches of a few, and each has t
 
 TEST_CASE("flatten_charts: size and place in space change nothing")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::cap(test::sized(6, 3));
     const surfaces parts = {m, moved(m, 1e-7, vec3(0.0)), moved(m, 1e9, vec3(0.0)), moved(m, 1, vec3(1e6, -1e6, 1e6))};
     const auto charts = charts_of(parts);
@@ -214,7 +215,7 @@ TEST_CASE("flatten_charts: size and place in space change nothing")
 
 TEST_CASE("flatten_charts: charts without a map say why, and the others stay")
 {
-    queue q;
+    queue q(test::shared_context());
     const mesh<triangle> flat_triangle({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{{0, 1, 2}}});
     const auto charts =
         charts_of({test::cap(3), test::octahedron(), test::torus(5, true), flat_triangle, test::grid(2, 2)});
@@ -234,7 +235,7 @@ TEST_CASE("flatten_charts: charts without a map say why, and the others stay")
 
 TEST_CASE("flatten_charts: maps near the barrier come away from it in a few steps")
 {
-    queue q;
+    queue q(test::shared_context());
     auto m = test::grid(3, 3);
     const auto charts = charts_of({m});
     // The inside is pressed against a corner: areas of 1e-9.
@@ -250,7 +251,7 @@ TEST_CASE("flatten_charts: maps near the barrier come away from it in a few step
 
 TEST_CASE("flatten_charts: a given map is the start where it is valid")
 {
-    queue q;
+    queue q(test::shared_context());
     const surfaces parts = {test::bumpy(5), test::cap(4)};
     const auto charts = charts_of(parts);
     auto initial = flatten_charts(q, charts).uv;
@@ -267,7 +268,7 @@ TEST_CASE("flatten_charts: a given map is the start where it is valid")
 
 TEST_CASE("flatten_charts: whoever stops it gets valid maps for what has begun")
 {
-    queue q;
+    queue q(test::shared_context());
     const surfaces parts = kinds();
     const auto charts = charts_of(parts);
     int asked = 0;
@@ -300,7 +301,7 @@ TEST_CASE("flatten_charts: whoever stops it gets valid maps for what has begun")
 
 TEST_CASE("flatten_charts: large charts go to multigrid, with the same energies")
 {
-    queue q;
+    queue q(test::shared_context());
     const surfaces parts = {test::bumpy(test::sized(8, 4)), test::annulus(8), test::octahedron()};
     const auto charts = charts_of(parts);
     const auto dense = flatten_charts(q, charts), large = flatten_charts(q, charts, {.tuning = {.largest = 0}});
@@ -318,7 +319,7 @@ TEST_CASE("flatten_charts: large charts go to multigrid, with the same energies"
 
 TEST_CASE("flatten_charts: large charts of rough surfaces come near their minima, though the first steps are short")
 {
-    queue q;
+    queue q(test::shared_context());
     const surfaces parts = {test::noisy(spiral(240, 4, 4), 0.05, 1), test::noisy(spiral(120, 10, 2), 0.05, 2)};
     const auto charts = charts_of(parts);
     const auto dense = flatten_charts(q, charts),
@@ -333,7 +334,7 @@ TEST_CASE("flatten_charts: large charts of rough surfaces come near their minima
 
 TEST_CASE("flatten_charts: parameters are looked at")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto charts = charts_of({test::single_triangle()});
     CHECK_THROWS_AS(flatten_charts(q, charts, {.tolerance = 0}), parameter_error);
     CHECK_THROWS_AS(flatten_charts(q, charts, {.max_iterations = -1}), parameter_error);

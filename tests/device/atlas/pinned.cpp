@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <support/shared_context.hpp>
+
 #include <taut/impl/atlas/make_atlas.hpp>
 
 using namespace taut;
@@ -44,7 +46,7 @@ struct squares
 
 TEST_CASE("make_atlas: beside pinned charts, tiles and faults are of the triangles of the whole surface")
 {
-    queue q;
+    queue q(test::shared_context());
     const squares s(3);
     const mesh<triangle> m(s.points, s.cells);
     atlas_params params{.initial = s.uv, .pinned = {1, 1, 0, 0, 0, 0}, .packing = {.groups = {0, 0, 1, 1, 0, 0}}};

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <support/closed_meshes.hpp>
+#include <support/shared_context.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 
 using namespace taut;
@@ -126,7 +127,7 @@ void check_bound(queue& q, const mesh<triangle>& m, double bound, std::size_t mo
 
 TEST_CASE("make_atlas: cubes and prisms keep the bound, however they are cut and however tight it is")
 {
-    queue q;
+    queue q(test::shared_context());
     for (unsigned cut = 0; cut < 64; cut += 3)
     {
         CAPTURE(cut);
@@ -144,7 +145,7 @@ TEST_CASE("make_atlas: cubes and prisms keep the bound, however they are cut and
 
 TEST_CASE("make_atlas: cones, cylinders, stairs and figures of boxes keep the bound with few charts")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const double bound : {4.1, 4.02})
     {
         CAPTURE(bound);
@@ -169,7 +170,7 @@ TEST_CASE("make_atlas: cones, cylinders, stairs and figures of boxes keep the bo
 
 TEST_CASE("make_atlas: a long chart is cut across where that fills the square, at little cost")
 {
-    queue q;
+    queue q(test::shared_context());
     std::set<test::cube_cell> boxes;
     for (int x = 0; x < 60; ++x) boxes.insert({x, 0, 0});
     const auto m = test::cubes(boxes, 1);
@@ -185,7 +186,7 @@ TEST_CASE("make_atlas: a long chart is cut across where that fills the square, a
 
 TEST_CASE("make_atlas: copies that lie on each other have the least distorted of their maps")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto one = cube(63);
     auto points = one.points();
     auto cells = one.cells();
@@ -200,7 +201,7 @@ TEST_CASE("make_atlas: copies that lie on each other have the least distorted of
 
 TEST_CASE("make_atlas: densities of triangles are factors of the lengths of their charts")
 {
-    queue q;
+    queue q(test::shared_context());
     std::vector<vec3> points;
     std::vector<std::array<idx, 3>> cells;
     for (const int k : {0, 1})

@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <support/shared_context.hpp>
+
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/pressed_charts.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
@@ -44,7 +46,7 @@ chart_set arc(double angle, double height)
 
 TEST_CASE("pressed charts: the ends of an arc come nearer, within the bound and without overlaps")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const double angle : {0.5, 6.0}) // nearly straight; its ends nearly meet
         for (const double more : {-0.1, 0.02})
         {
@@ -82,7 +84,7 @@ TEST_CASE("pressed charts: the ends of an arc come nearer, within the bound and 
 
 TEST_CASE("pressed charts: what is plane stays as it is")
 {
-    queue q;
+    queue q(test::shared_context());
     chart_set set = arc(0.5, 0);
     measure(set);
     const run_limits unlimited;

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/closed_meshes.hpp>
+#include <support/shared_context.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/seams/openness.hpp>
 
@@ -51,7 +52,7 @@ double length_of(const mesh<triangle>& m, const atlas& made)
 
 TEST_CASE("seam wishes: hidden seams are seen less, within the bound, and the report says how much")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const auto prefer : {chart_preference::seams, chart_preference::packing})
     {
         const auto m = grooved_ball(14);
@@ -83,7 +84,7 @@ TEST_CASE("seam wishes: hidden seams are seen less, within the bound, and the re
 
 TEST_CASE("seam wishes: what is painted dear has fewer seams")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = grooved_ball(14);
     std::vector<double> weights;
     for (idx s = 0; s < 3 * m.cell_count(); ++s)
@@ -111,7 +112,7 @@ TEST_CASE("seam wishes: what is painted dear has fewer seams")
 
 TEST_CASE("seam wishes: seams are along edges that are bent")
 {
-    queue q;
+    queue q(test::shared_context());
     // A box whose faces are bent a little, so that they are to be cut somewhere.
     const auto m = test::moved(test::box(12), [](const vec3& x) { return x + 0.02 * vec3(std::sin(5 * x.y), 0, 0); });
     const auto on_edges = [&](const atlas& made)

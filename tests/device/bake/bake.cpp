@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <support/shared_context.hpp>
 #include <support/two_atlases.hpp>
 #include <taut/impl/bake/bake.hpp>
 #include <taut/impl/bake/compare_textures.hpp>
@@ -85,7 +86,7 @@ std::pair<std::array<double, 4>, double> on_host(const two_atlases& s, const tex
 
 TEST_CASE("bake: texels are those of the host, in triangles and around them")
 {
-    queue q;
+    queue q(test::shared_context());
     const two_atlases s(6, true);
     const auto old = s.old_texture(48, 40, 4, [](const vec2& x, int) { return smooth(x); });
     const auto b = bake(q, old, s.old_uv, s.new_uv, {.width = 60, .height = 44, .gutter = 0});
@@ -110,7 +111,7 @@ TEST_CASE("bake: texels are those of the host, in triangles and around them")
 
 TEST_CASE("bake: a smooth texture through both atlases differs by less than its sampling")
 {
-    queue q;
+    queue q(test::shared_context());
     const two_atlases s;
     const auto old = s.old_texture(256, 256, 3, [](const vec2& x, int) { return smooth(x); });
     for (const idx size : {idx(128), idx(256), idx(500)})
@@ -141,7 +142,7 @@ TEST_CASE("bake: a smooth texture through both atlases differs by less than its 
 
 TEST_CASE("bake: a checker through both atlases differs near its edges alone")
 {
-    queue q;
+    queue q(test::shared_context());
     const two_atlases s;
     const auto old = s.old_texture(300, 300, 1, [](const vec2& x, int) { return checker(x); });
     const auto b = bake(q, old, s.old_uv, s.new_uv);
@@ -162,7 +163,7 @@ TEST_CASE("bake: a checker through both atlases differs near its edges alone")
 
 TEST_CASE("bake: labels stay labels, and samples are means")
 {
-    queue q;
+    queue q(test::shared_context());
     const two_atlases s;
     const auto labels =
         s.old_texture(90, 70, 1, [](const vec2& x, int) { return std::array{7.0 + std::floor(4 * x.x) * 3}; });
@@ -183,7 +184,7 @@ TEST_CASE("bake: labels stay labels, and samples are means")
 
 TEST_CASE("bake: a program of three lines")
 {
-    queue q;
+    queue q(test::shared_context());
     const two_atlases s;
     const auto &old_uv = s.old_uv, &new_uv = s.new_uv;
     // [bake]
@@ -196,7 +197,7 @@ TEST_CASE("bake: a program of three lines")
 
 TEST_CASE("bake: gutters have the nearest texel, as wide as asked")
 {
-    queue q;
+    queue q(test::shared_context());
     const two_atlases s;
     const auto old = s.old_texture(64, 64, 1, [](const vec2&, int) { return std::array{0.25}; });
     const auto all = bake(q, old, s.old_uv, s.new_uv);
@@ -209,7 +210,7 @@ TEST_CASE("bake: gutters have the nearest texel, as wide as asked")
 
 TEST_CASE("bake: textures repeat or end, and the new one may be any unit square")
 {
-    queue q;
+    queue q(test::shared_context());
     two_atlases s;
     const auto old = s.old_texture(64, 64, 2, [](const vec2& x, int) { return smooth(x); });
     const auto b = bake(q, old, s.old_uv, s.new_uv);
@@ -229,7 +230,7 @@ TEST_CASE("bake: textures repeat or end, and the new one may be any unit square"
 
 TEST_CASE("bake: colours of vertices are linear in triangles")
 {
-    queue q;
+    queue q(test::shared_context());
     const two_atlases s;
     std::vector<float> colours;
     for (const auto& t : s.triangles)
@@ -251,7 +252,7 @@ TEST_CASE("bake: colours of vertices are linear in triangles")
 
 TEST_CASE("bake: normals point as before, in turned and mirrored charts")
 {
-    queue q;
+    queue q(test::shared_context());
     const two_atlases s(12, true);
     const auto normals = smooth_normals(s.points, s.triangles);
     const auto from = tangent_frames(s.points, s.triangles, normals, s.old_uv),
@@ -297,7 +298,7 @@ TEST_CASE("bake: normals point as before, in turned and mirrored charts")
 
 TEST_CASE("bake: what does not fit together is refused; triangles without a place are left out")
 {
-    queue q;
+    queue q(test::shared_context());
     two_atlases s;
     const texture old{8, 8, 1, std::vector<float>(64, 1.0f)};
     CHECK_THROWS_AS(bake(q, {8, 8, 1, {}}, s.old_uv, s.new_uv), parameter_error);

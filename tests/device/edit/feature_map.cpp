@@ -7,6 +7,7 @@
 
 #include <support/edit_meshes.hpp>
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <taut/impl/edit/paste.hpp>
 #include <taut/impl/edit/surface/surface_tree.hpp>
 #include <taut/impl/edit/write_feature_map.hpp>
@@ -21,7 +22,7 @@ namespace
 /// A mushroom on a sphere, in the sphere's map.
 struct mapped_mushroom
 {
-    queue q;
+    queue q{test::shared_context()};
     paste pasted{q, test::sphere(4), feature(geodesic_disk(test::mushroom(24), 0, 2.2)), 4, {.pose = {.scale = 0.4}}};
     map_result map = pasted.parameterize_feature(q);
 };
@@ -109,7 +110,7 @@ TEST_CASE("feature map: the device draws what the host says, without holes or bl
 
 TEST_CASE("feature map: of a part that is seen from above, drawn and sampled")
 {
-    queue q;
+    queue q(test::shared_context());
     const feature part(geodesic_disk(test::bumpy(8, 0.3), 40, 0.4));
     std::vector<vec2> uv;
     for (const vec3& p : part.region.surface.points()) uv.emplace_back(p.x, p.y);

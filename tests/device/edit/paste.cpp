@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include <support/edit_meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/temporary_folder.hpp>
 #include <taut/impl/edit/write_paste.hpp>
 #include <taut/impl/io/read_surface.hpp>
@@ -32,7 +33,7 @@ feature mushroom()
 
 TEST_CASE("paste: a closed surface stays closed, and what is far away stays as it was")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto target = test::sphere(4);
     const taut::idx onto = 4;
     paste p(q, target, mushroom(), onto, {.pose = {.scale = 0.4}});
@@ -66,7 +67,7 @@ TEST_CASE("paste: a closed surface stays closed, and what is far away stays as i
 
 TEST_CASE("paste: hard keeps the shape of the feature, soft lays its rim on the target")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto part = mushroom();
     paste p(q, test::sphere(4), part, 4, {.pose = {.scale = 0.4}});
     const auto& own = part.region;
@@ -85,7 +86,7 @@ TEST_CASE("paste: hard keeps the shape of the feature, soft lays its rim on the 
 
 TEST_CASE("paste: a pose costs one kernel, three where it is soft, and changes coordinates alone")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto part = mushroom();
     paste p(q, test::sphere(4), part, 4, {.pose = {.scale = 0.4}});
     const auto cells = p.cells();
@@ -111,7 +112,7 @@ TEST_CASE("paste: a pose costs one kernel, three where it is soft, and changes c
 
 TEST_CASE("paste: the softer, the less the surface bends across the rim, and at 1 hardly")
 {
-    queue q;
+    queue q(test::shared_context());
     // The rim is on the stem, upright.
     paste p(q, test::sphere(4), feature(geodesic_disk(test::mushroom(48), 0, 1.5)), 4, {.pose = {.scale = 0.4}});
     double before = 180, hard = 0;
@@ -132,7 +133,7 @@ TEST_CASE("paste: the softer, the less the surface bends across the rim, and at 
 
 TEST_CASE("paste: triangles that meet are found, but for those that met before")
 {
-    queue q;
+    queue q(test::shared_context());
     CHECK(paste(q, test::sphere(4), mushroom(), 4, {.pose = {.scale = 0.4}}).self_intersections().empty());
     // Deep in the sphere, the hat comes out on the other side.
     const paste deep(q, test::sphere(4), mushroom(), 4, {.pose = {.scale = 0.4, .shift = {0, 0, -2.35}}});
@@ -149,7 +150,7 @@ TEST_CASE("paste: triangles that meet are found, but for those that met before")
 
 TEST_CASE("paste: where the seam folds, another softness is taken, and where all fold, that is told")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto rough = [](double height, double waves)
     {
         auto points = test::sphere(4).points();
@@ -178,7 +179,7 @@ TEST_CASE("paste: where the seam folds, another softness is taken, and where all
 
 TEST_CASE("paste: a soft seam without a map in time is refused, and the hard one stays")
 {
-    queue q;
+    queue q(test::shared_context());
     paste p(q, test::sphere(4), mushroom(), 4, {.pose = {.scale = 0.4}},
             {.time_limit = std::chrono::duration<double>(1e-9)});
     const auto hard = p.points();
@@ -192,7 +193,7 @@ TEST_CASE("paste: a soft seam without a map in time is refused, and the hard one
 
 TEST_CASE("paste: again and again, on a plane, and on a feature that was pasted")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto once = paste(q, test::sphere(4), mushroom(), 4, {.pose = {.scale = 0.4}}).surface();
     const auto twice = paste(q, once, mushroom(), 0, {.pose = {.turn = 1, .scale = 0.3, .softness = 0.5}}).surface();
     CHECK(check(twice, closed).empty());
@@ -207,7 +208,7 @@ TEST_CASE("paste: again and again, on a plane, and on a feature that was pasted"
 
 TEST_CASE("paste: a feature whose triangles hang on its rim, and one smaller than a triangle of the target")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::grid(12, 12);
     std::vector<taut::idx> faces{2 * (5 * 12 + 8)}; // a tooth: a single triangle on the rim of a square
     for (int j = 4; j < 8; ++j)
@@ -223,7 +224,7 @@ TEST_CASE("paste: a feature whose triangles hang on its rim, and one smaller tha
 
 TEST_CASE("paste: what finds no place is refused with the reason")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto grid = test::grid(20, 20);
     CHECK_THROWS_AS(paste(q, grid, mushroom(), -1), region_error);
     CHECK_THROWS_AS(paste(q, grid, mushroom(), 10 * 21 + 10, {.pose = {.scale = 10}}),
@@ -236,7 +237,7 @@ TEST_CASE("paste: what finds no place is refused with the reason")
 
 TEST_CASE("paste: the file has the texture coordinates of both surfaces")
 {
-    queue q;
+    queue q(test::shared_context());
     const test::temporary_folder folder;
     const auto with_texcoords = [](mesh<triangle> m)
     {

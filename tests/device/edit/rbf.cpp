@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <support/rbf_points.hpp>
+#include <support/shared_context.hpp>
 #include <taut/impl/edit/rbf.hpp>
 #include <taut/impl/edit/rbf_evaluator.hpp>
 
@@ -12,7 +13,7 @@ using namespace taut::impl;
 
 TEST_CASE("rbf evaluator: the device has the field of the host, one launch a field")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const auto basis : test::all_bases)
     {
         CAPTURE(static_cast<int>(basis));

@@ -111,9 +111,9 @@ TEST_CASE("space modes: the Hessian, as it is, clamped or absolute, whatever the
          {any_energy(energy::isometric{}), any_energy(energy::shape{}), any_energy(test::mips_power{.p = 2}),
           any_energy(0.5 * energy::isometric{} + 0.5 * energy::area{}), any_energy(energy::neo_hookean{0.49}),
           any_energy(spread{})})
-        for (const auto& [projected, absolute] :
-             {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
+        for (const auto& kind : {std::pair(false, false), std::pair(true, false), std::pair(true, true)})
         {
+            const bool projected = kind.first, absolute = kind.second; // lambdas of CHECK may not use a binding
             hessians H(energy, projected, absolute);
             for (const mat3& S : tried)
             {

@@ -8,6 +8,8 @@
 
 #include <doctest/doctest.h>
 
+#include <support/shared_context.hpp>
+
 #include <taut/impl/exact/convex_polygons.hpp>
 #include <taut/impl/map/parameterize.hpp>
 
@@ -54,7 +56,7 @@ struct quad_hills
 
 TEST_CASE("convex polygons: quads that are convex in space are so in the map, with pins and no overlaps, too")
 {
-    queue q;
+    queue q(test::shared_context());
     const idx n = 12;
     const quad_hills h(n);
     parameterize_params params;
@@ -83,13 +85,13 @@ TEST_CASE("convex polygons: quads that are convex in space are so in the map, wi
 
 TEST_CASE("convex polygons: one that pins make concave stays so, and is told")
 {
-    queue q;
+    queue q(test::shared_context());
     const idx n = 6;
     const quad_hills h(n);
     parameterize_params params{.polygons = h.quad};
     const auto convex = taut::impl::find_convex_polygons(h.surface.cells(), h.quad, h.surface.points());
     const auto inner = std::find_if(convex.numbers.begin(), convex.numbers.end(),
-                                    [n](idx k) { return k % n > 0 && k % n < n - 1 && k / n > 0 && k / n < n - 1; });
+                                    [](idx k) { return k % n > 0 && k % n < n - 1 && k / n > 0 && k / n < n - 1; });
     REQUIRE(inner != convex.numbers.end());
     const idx a = *inner / n * (n + 1) + *inner % n, b = a + 1, c = a + n + 2, d = a + n + 1;
     const auto free = parameterize(q, h.surface, params).uv;

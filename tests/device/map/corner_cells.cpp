@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/exact/cell_validity.hpp>
@@ -97,7 +98,7 @@ TEST_CASE("corner cells: a bar of hexahedra and wedges is bent, pins hold and al
         const vec3& p = m.points()[static_cast<std::size_t>(v)];
         if (p.z == 0 || p.z == 2) how.constraints.pin(v, p.z == 0 ? p : turn(p));
     }
-    queue q;
+    queue q(test::shared_context());
     const auto [x, report] = deform(q, m, how);
     REQUIRE(report.outcome == outcome::valid);
     CHECK(report.pins_held);
@@ -122,7 +123,7 @@ TEST_CASE("corner cells: tangled ones are smoothed to regular ones, and flat sid
         if (std::min({p.x, p.y, p.z}) > 0 && std::max({p.x, p.y, p.z / 2}) < 1)
             p += vec3(move(random), move(random), move(random));
     const mesh<tetrahedron> tangled(points, parts.simplices.cells());
-    queue q;
+    queue q(test::shared_context());
     const auto r = smooth(q, tangled, {.targets = parts.regular, .owners = parts.cells});
     REQUIRE(r);
     CHECK(r.before.worst.mean_ratio < 0);
@@ -148,7 +149,7 @@ TEST_CASE("corner cells: quads among triangles of the plane are bent, on a hiera
         const vec3& p = m.points()[static_cast<std::size_t>(v)];
         if (p.x == 0 || p.x == 1) how.constraints.pin(v, vec2(p.x == 0 ? p : turn(p)));
     }
-    queue q;
+    queue q(test::shared_context());
     const auto [x, report] = deform(q, m, how);
     REQUIRE(report.outcome == outcome::valid);
     CHECK(report.pins_held);
@@ -166,7 +167,7 @@ TEST_CASE("corner cells: tangled quads are smoothed to squares; that they cannot
     std::uniform_real_distribution<double> move(-0.6 / n, 0.6 / n);
     for (vec3& p : points)
         if (std::min(p.x, p.y) > 0 && std::max(p.x, p.y) < 1) p += vec3(move(random), move(random), 0);
-    queue q;
+    queue q(test::shared_context());
     const auto r =
         smooth(q, mesh<triangle>(points, parts.simplices.cells()), {.targets = parts.regular, .owners = parts.cells});
     REQUIRE(r);

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/distortion.hpp>
@@ -98,7 +99,7 @@ std::vector<double> painted(const mesh<triangle>& m, double left, double right)
 TEST_CASE("data: where weights are painted high, the map is less distorted, with every solver")
 {
     const auto m = rough_hill();
-    queue q;
+    queue q(test::shared_context());
     for (const auto method : {solve::method::automatic, solve::method::lbfgs})
     {
         const solve::params some{.method = method, .max_iterations = 300};
@@ -119,7 +120,7 @@ TEST_CASE("data: where weights are painted high, the map is less distorted, with
 TEST_CASE("data: an energy reads attributes of its triangle, on the device as on the host")
 {
     const auto m = rough_hill();
-    queue q;
+    queue q(test::shared_context());
     const cell_data data{.attribute_count = 1, .attributes = painted(m, 0.1, 5)};
     const auto map = parameterize(q, m, {.energy = mixed{}, .data = data});
     REQUIRE(map);
@@ -148,7 +149,7 @@ TEST_CASE("data: an energy reads attributes of its triangle, on the device as on
 TEST_CASE("data: another parameter takes no other kernel")
 {
     const auto m = rough_hill();
-    queue q;
+    queue q(test::shared_context());
     const auto first = parameterize(q, m, {.energy = {slid{}, {0.5}}});
     REQUIRE(first);
     const auto builds = q.counters().builds;
@@ -172,7 +173,7 @@ TEST_CASE("data: with directions an anisotropic energy does not depend on which 
         for (auto turns = rng() % 3; turns > 0; --turns) t = {t[1], t[2], t[0]};
     const mesh<triangle> turned(m.points(), cells);
     const cell_data data{.directions = std::vector<vec3>(cells.size(), vec3(2, 1, 0))};
-    queue q;
+    queue q(test::shared_context());
     const auto one = parameterize(q, m, {.energy = cloth{}, .data = data});
     const auto two = parameterize(q, turned, {.energy = cloth{}, .data = data});
     REQUIRE(one);
@@ -188,7 +189,7 @@ TEST_CASE("data: with directions an anisotropic energy does not depend on which 
 TEST_CASE("data: what does not fit is refused by name")
 {
     const auto m = rough_hill();
-    queue q;
+    queue q(test::shared_context());
     const auto field = [&](const parameterize_params& p)
     {
         try

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/isometric.hpp>
@@ -94,7 +95,7 @@ rigid_motion<3> turn(double angle, const vec3& axis = {0, 0, 1})
 TEST_CASE("deform: a bar is twisted, stretched and bent without an inverted element, and converges")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     const auto full = turn(std::numbers::pi);
     const auto bent = turn(std::numbers::pi / 2, {1, 0, 0});
     const auto wanted = [&](int kind, const vec3& p)
@@ -120,7 +121,7 @@ TEST_CASE("deform: a bar is twisted, stretched and bent without an inverted elem
 TEST_CASE("deform: handles that turn are brought to their places at once, and what that squeezes is mended by itself")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     const auto stage = [](const session_result<tetrahedron>& r, const std::string& name)
     {
         const auto& all = r.report.stages;
@@ -180,7 +181,7 @@ TEST_CASE("deform: slender volumes are drafted on coarser ones, so that few step
 {
     constexpr int length = 90;
     const auto m = tower(4, length);
-    queue q;
+    queue q(test::shared_context());
     deform_params<tetrahedron> params;
     const auto end = where(m, [](const vec3& p) { return p.z == length; });
     const auto steps = [&](const auto& motion)
@@ -203,7 +204,7 @@ TEST_CASE("deform: slender volumes are drafted on coarser ones, so that few step
 TEST_CASE("deform: an energy that is 0 at rest takes steps from there, in any precision")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     for (const precision how : {precision::fp64, precision::mixed})
         for (const double poisson : {0.3, 0.45})
         {
@@ -227,7 +228,7 @@ TEST_CASE("deform: an energy that is 0 at rest takes steps from there, in any pr
 TEST_CASE("deform: where steps in float lead no further the shape goes on in double")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     if (!q.device().has_fp64()) return;
     // Squeezed across by 1e9: in float determinants are nothing but rounding, and no step gains anything.
     deform_params<tetrahedron> params;
@@ -249,7 +250,7 @@ TEST_CASE("deform: where steps in float lead no further the shape goes on in dou
 TEST_CASE("deform: what is bent is no better for starting elsewhere, and the shape at rest costs nothing")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     deform_params<tetrahedron> params{.constraints =
                                           taut::constraints(m).fix(bottom(m)).move(top(m), turn(0.7, {1, 0, 0}))};
     const auto direct = deform(q, m, params);
@@ -273,7 +274,7 @@ TEST_CASE("deform: what is bent is no better for starting elsewhere, and the sha
 TEST_CASE("deform: patch test, an affine map of the boundary is the affine map inside")
 {
     const auto m = test::jittered_cube(test::sized(6, 4), 5);
-    queue q;
+    queue q(test::shared_context());
     const mat3 A(1.1, 0.1, 0.0, -0.2, 0.9, 0.1, 0.05, 0.1, 1.2);
     std::vector<idx> rim;
     for (const auto& f : taut::impl::boundary_facets(m)) rim.insert(rim.end(), f.begin(), f.end());
@@ -308,7 +309,7 @@ TEST_CASE("deform: springs draw, single coordinates hold, vertices without cells
     }
     points.emplace_back(-3, -3, -3);
     const mesh<tetrahedron> m(points, cells);
-    queue q;
+    queue q(test::shared_context());
     auto pins = taut::constraints(m).fix(bottom(m));
     for (const idx v : top(m)) pins.pin(v, 2, 3.3);
     pins.spring(n, {6, 1, 1}, 100.0);
@@ -323,7 +324,7 @@ TEST_CASE("deform: springs draw, single coordinates hold, vertices without cells
 TEST_CASE("deform: what no shape can obey is refused with the elements")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     // A tetrahedron whose four corners are pinned and mirrored.
     auto pins = taut::constraints(m);
     const auto& t = m.cells()[5];
@@ -348,7 +349,7 @@ TEST_CASE("deform: what no shape can obey is refused with the elements")
 TEST_CASE("deform: a mesh that is tangled is untangled first, and one whose rest is inverted is refused")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     auto tangled = m.points();
     for (const idx v : where(m, [](const vec3& p) { return p.z == 1.5 || (p.z > 1 && p.z < 2 && p.x > 0.3); }))
         tangled[static_cast<std::size_t>(v)] = vec3(0.2, 0.2, 2.5);
@@ -365,7 +366,7 @@ TEST_CASE("deform: a mesh that is tangled is untangled first, and one whose rest
 TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are named")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     const auto pins =
         taut::constraints(m).fix(bottom(m)).move(top(m), [](const vec3& p) { return p - vec3(0, 0, 1.8); });
     int asked = 0;
@@ -406,7 +407,7 @@ TEST_CASE("deform: limits leave the best shape so far, and wrong parameters are 
 TEST_CASE("deform: a mesh of the plane goes through the same door, a surface in space does not")
 {
     const auto m = test::grid(test::sized(12, 6), test::sized(12, 6));
-    queue q;
+    queue q(test::shared_context());
     std::vector<idx> left, right;
     for (idx v = 0; v < m.vertex_count(); ++v)
     {
@@ -425,7 +426,7 @@ TEST_CASE("deform: a mesh of the plane goes through the same door, a surface in 
 TEST_CASE("session: a volume follows a handle that is moved in many steps, injective at each")
 {
     const auto m = bar();
-    queue q;
+    queue q(test::shared_context());
     session s(q, m, {.constraints = taut::constraints(m).fix(bottom(m))});
     REQUIRE(s.solve());
     const auto handle = top(m);

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <support/infeasible_problems.hpp>
+#include <support/shared_context.hpp>
 #include <taut/impl/map/deform_refined.hpp>
 
 using namespace taut;
@@ -11,7 +12,7 @@ using namespace taut;
 TEST_CASE("deform with refinement: pins that turn an element over are met on a refined mesh")
 {
     const auto problem = test::folded_edge();
-    queue q;
+    queue q(test::shared_context());
     deform_params<tetrahedron> params;
     params.constraints = constraints(problem.rest);
     for (taut::idx v = 0; v < problem.rest.vertex_count(); ++v)

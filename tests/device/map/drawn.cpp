@@ -12,6 +12,7 @@
 #include <support/chart_checks.hpp>
 #include <support/extreme_meshes.hpp>
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
@@ -38,7 +39,7 @@ mesh<triangle> waves()
 /// Its free map with the boundary pinned.
 struct bound_map
 {
-    queue q;
+    queue q{test::shared_context()};
     mesh<triangle> m;
     std::vector<vec2> free = parameterize(q, m).uv;
     vec2 centre{0};

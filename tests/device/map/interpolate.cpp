@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/map/interpolate.hpp>
@@ -63,7 +64,7 @@ double farthest(const Points& x, const Points& y)
 TEST_CASE("interpolation: the ends are the two shapes bit for bit, a half turn and a whole one are turned half at half")
 {
     const auto m = long_bar(5);
-    queue q;
+    queue q(test::shared_context());
     for (const double angle : {std::numbers::pi, 2 * std::numbers::pi})
     {
         CAPTURE(angle);
@@ -89,7 +90,7 @@ TEST_CASE("interpolation: the ends are the two shapes bit for bit, a half turn a
 TEST_CASE("interpolation: near an end it is near its shape, and a rigid motion is gone rigidly")
 {
     const auto m = long_bar(2);
-    queue q;
+    queue q(test::shared_context());
     const auto end = twisted(m, 1.5);
     const interpolation<tetrahedron> between(m, end);
     CHECK(farthest(between.at(q, 1e-4).x, m.points()) < 1e-3);
@@ -110,7 +111,7 @@ TEST_CASE("interpolation: near an end it is near its shape, and a rigid motion i
 TEST_CASE("interpolation: where the gradients fit no injective shape it finds one all the same")
 {
     const auto m = long_bar(5);
-    queue q;
+    queue q(test::shared_context());
     const auto end = twisted(m, 3 * std::numbers::pi);
     const interpolation<tetrahedron> between(m, end);
     const auto r = between.at(q, 0.5);
@@ -121,7 +122,7 @@ TEST_CASE("interpolation: where the gradients fit no injective shape it finds on
 TEST_CASE("interpolation: in the plane, pins hold, and wrong arguments are refused")
 {
     const auto m = test::grid(test::sized(10, 6), test::sized(10, 6));
-    queue q;
+    queue q(test::shared_context());
     std::vector<vec2> end;
     for (const vec3& p : m.points()) // bent around by three quarters of a turn
         end.emplace_back((1 + p.y) * std::sin(1.5 * std::numbers::pi * p.x),

@@ -10,6 +10,7 @@
 
 #include <doctest/doctest.h>
 
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 #include <support/strips.hpp>
 
@@ -62,7 +63,7 @@ void check_apart(const mesh<triangle>& m, const map_result& r)
 
 TEST_CASE("no_overlap: a ramp of more than one turn lies on itself without it and beside itself with it")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = winding_ramp();
     const auto free = parameterize(q, m);
     REQUIRE(free);
@@ -83,7 +84,7 @@ TEST_CASE("no_overlap: a ramp of more than one turn lies on itself without it an
 
 TEST_CASE("no_overlap: a map that does not cross itself is the same with it, bit for bit")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::bumpy(test::sized(12, 6));
     const auto free = parameterize(q, m);
     const auto r = parameterize(q, m, {.no_overlap = true});
@@ -95,7 +96,7 @@ TEST_CASE("no_overlap: a map that does not cross itself is the same with it, bit
 
 TEST_CASE("no_overlap: teeth that meet in the hole of a ring stay out of each other's way")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::crown(4, 3, 15);
     const auto free = parameterize(q, m, {.holes = true});
     REQUIRE(free);
@@ -110,7 +111,7 @@ TEST_CASE("no_overlap: teeth that meet in the hole of a ring stay out of each ot
 
 TEST_CASE("no_overlap: who stops it gets a map without crossings all the same")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = winding_ramp();
     for (const int asked : {1, 40})
     {
@@ -128,10 +129,11 @@ TEST_CASE("no_overlap: who stops it gets a map without crossings all the same")
 
 TEST_CASE("no_overlap: where time ends it, it is time that is told")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = winding_ramp();
     int asked = 0;
     const auto count = [&](const progress&) { return ++asked > 0; };
+    REQUIRE(parameterize(q, m, {.no_overlap = true})); // kernels are built
     const budget clock;
     REQUIRE(parameterize(q, m, {}, {.observer = count}));
     const int before = std::exchange(asked, 0);
@@ -163,7 +165,7 @@ TEST_CASE("no_overlap: where time ends it, it is time that is told")
 
 TEST_CASE("no_overlap: pins hold bit for bit, springs draw")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = winding_ramp();
     const auto apart = parameterize(q, m, {.no_overlap = true});
     REQUIRE(apart);
@@ -186,7 +188,7 @@ TEST_CASE("no_overlap: pins hold bit for bit, springs draw")
 
 TEST_CASE("no_overlap: edges of the boundary that are pinned across each other are refused with their ends")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = winding_ramp();
     const auto free = parameterize(q, m);
     const auto edges = impl::edges_of(boundary_loops(m));
@@ -212,7 +214,7 @@ TEST_CASE("no_overlap: edges of the boundary that are pinned across each other a
 
 TEST_CASE("no_overlap: a given map without crossings is gone on from")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = winding_ramp();
     const auto apart = parameterize(q, m, {.no_overlap = true});
     REQUIRE(apart);
@@ -225,7 +227,7 @@ TEST_CASE("no_overlap: a given map without crossings is gone on from")
 
 TEST_CASE("no_overlap: other energies, weights and directions of cells are minimised as without it")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = winding_ramp();
     std::mt19937 rng(5);
     cell_data data;
@@ -249,7 +251,7 @@ TEST_CASE("no_overlap: other energies, weights and directions of cells are minim
 
 TEST_CASE("no_overlap: a tube too long for a map on a polygon gets one that was made on coarser levels")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::tube(12, 60);
     const parameterize_params params;
     impl::run_clock clock(budget::unlimited, {});

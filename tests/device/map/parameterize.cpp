@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
@@ -46,7 +47,7 @@ void check_falling(const solve::report& r, precision how = precision::fp64)
 
 TEST_CASE("parameterize: every energy, weighting, boundary and precision gives a certified map")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = dome();
     for (const auto& energy :
          {any_energy(energy::isometric{}), any_energy(energy::shape{}), any_energy(energy::area{})})
@@ -75,7 +76,7 @@ TEST_CASE("parameterize: every energy, weighting, boundary and precision gives a
 
 TEST_CASE("parameterize: a developable surface is flattened without distortion")
 {
-    queue q;
+    queue q(test::shared_context());
     // Part of a cylinder: isometric to a rectangle.
     const auto flat = test::grid(test::sized(12, 4), test::sized(12, 4));
     auto points = flat.points();
@@ -90,7 +91,7 @@ TEST_CASE("parameterize: a developable surface is flattened without distortion")
 
 TEST_CASE("parameterize: size and place of the model do not matter")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = dome();
     for (const auto method : methods)
     {
@@ -115,7 +116,7 @@ TEST_CASE("parameterize: size and place of the model do not matter")
 
 TEST_CASE("parameterize: a fixed boundary stays where the start has it, bit for bit")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = dome();
     for (const auto boundary : {boundary_mode::fixed, boundary_mode::square})
         for (const auto how : {precision::fp64, precision::mixed, precision::fp32})
@@ -135,7 +136,7 @@ TEST_CASE("parameterize: a fixed boundary stays where the start has it, bit for 
 
 TEST_CASE("parameterize: a scale-invariant energy returns the area of the surface")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = dome();
     const auto r = parameterize(q, m, {.energy = energy::shape{}, .solve = {.max_iterations = 50}});
     REQUIRE(r);
@@ -152,7 +153,7 @@ TEST_CASE("parameterize: a scale-invariant energy returns the area of the surfac
 
 TEST_CASE("parameterize: a start of one's own is taken, turned over if it is mirrored, untangled if folded")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = dome();
     auto start = barycentric_map(m).uv;
     const parameterize_params few{.initial = start, .solve = {.max_iterations = 3}};
@@ -190,7 +191,7 @@ TEST_CASE("parameterize: a start of one's own is taken, turned over if it is mir
 
 TEST_CASE("parameterize: place and scale of a start do not matter to a free boundary, in float either")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = dome();
     const auto start = barycentric_map(m).uv;
     for (const auto how : {precision::fp64, precision::mixed, precision::fp32})
@@ -214,7 +215,7 @@ TEST_CASE("parameterize: place and scale of a start do not matter to a free boun
 
 TEST_CASE("parameterize: models of extreme size do not overflow")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const double scale : {1e-290, 1e290})
         for (const auto method : methods)
         {
@@ -230,7 +231,7 @@ TEST_CASE("parameterize: models of extreme size do not overflow")
 
 TEST_CASE("parameterize: at the ends of the range of double a map is certified as it is returned, or refused")
 {
-    queue q;
+    queue q(test::shared_context());
     int valid = 0, refused = 0;
     for (const double scale : {std::ldexp(1.0, -1071), std::ldexp(1.0, -1069), std::ldexp(1.0, -1060), 1e-300, 1e300})
     {
@@ -264,7 +265,7 @@ struct dirichlet
 
 TEST_CASE("parameterize: an energy without a barrier folds nothing; what cannot be certified gives the start back")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = dome();
     for (const auto method : methods)
         for (const auto boundary : {boundary_mode::free, boundary_mode::fixed})
@@ -300,7 +301,7 @@ TEST_CASE("parameterize: without double precision the start survives what float 
 
 TEST_CASE("parameterize: parameters outside their domain are named")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::single_triangle();
     const auto field_of = [&](const parameterize_params& p, const run_limits& limits = {})
     {
@@ -325,7 +326,7 @@ TEST_CASE("parameterize: parameters outside their domain are named")
 
 TEST_CASE("parameterize: stopping for any reason leaves a valid map once there is one")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::bumpy(test::sized(40, 3), 0.5, 3);
     for (const auto method : methods)
     {
@@ -373,7 +374,7 @@ TEST_CASE("parameterize: stopping for any reason leaves a valid map once there i
 
 TEST_CASE("parameterize: unsuitable surfaces are refused with their fault")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto fault_of = [&](const mesh<triangle>& m)
     {
         try
@@ -394,7 +395,7 @@ TEST_CASE("parameterize: unsuitable surfaces are refused with their fault")
 
 TEST_CASE("parameterize: the smallest meshes")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const auto& m : {test::single_triangle(), test::fan(3), test::fan(5, true)})
         for (const auto boundary : {boundary_mode::free, boundary_mode::fixed})
             CHECK(parameterize(q, m, {.boundary = boundary, .solve = {.max_iterations = 20}}));
@@ -402,7 +403,7 @@ TEST_CASE("parameterize: the smallest meshes")
 
 TEST_CASE("parameterize: slivers and long tubes")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto tube = test::tube(test::sized(12, 4), test::sized(8, 1));
     for (const auto method : methods) CHECK(parameterize(q, tube, {.solve = {.method = method, .max_iterations = 30}}));
 
@@ -415,7 +416,7 @@ TEST_CASE("parameterize: slivers and long tubes")
 
 TEST_CASE("parameterize: random disks keep every triangle upright, whatever the iteration limit")
 {
-    queue q;
+    queue q(test::shared_context());
     for (unsigned seed = 0; seed < 12; ++seed)
     {
         const auto m = test::bumpy(3 + static_cast<int>(seed) % test::sized(6, 2), 0.6, seed);

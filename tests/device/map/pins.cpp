@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
@@ -55,7 +56,7 @@ vec2 swirled(const vec2& p, double angle)
 
 TEST_CASE("pins: interior vertices that are moved stay bit for bit, the map is certified and converged")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto free = parameterize(q, m);
     REQUIRE(free);
@@ -74,7 +75,7 @@ TEST_CASE("pins: interior vertices that are moved stay bit for bit, the map is c
 
 TEST_CASE("pins: none is met by the free map's turned, scaled or shifted image, and the result is that image")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto free = parameterize(q, m);
     constraints<triangle> pins(m);
@@ -92,7 +93,7 @@ TEST_CASE("pins: none is met by the free map's turned, scaled or shifted image, 
 
 TEST_CASE("pins: a stop once there is a start leaves it, with its pins in place")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto free = parameterize(q, m);
     REQUIRE(free);
@@ -113,7 +114,7 @@ TEST_CASE("pins: a stop once there is a start leaves it, with its pins in place"
 
 TEST_CASE("pins: a boundary that is pinned to a polygon that is not convex, and a vertex inside")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     constraints<triangle> pins(m);
     // A letter L.
@@ -128,7 +129,7 @@ TEST_CASE("pins: a boundary that is pinned to a polygon that is not convex, and 
 
 TEST_CASE("pins: one coordinate of a vertex holds exactly while the other moves")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto free = parameterize(q, m);
     constraints<triangle> pins(m);
@@ -144,7 +145,7 @@ TEST_CASE("pins: one coordinate of a vertex holds exactly while the other moves"
 
 TEST_CASE("springs: the stiffer, the nearer; together with a pin, too")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto free = parameterize(q, m);
     const std::size_t n = free.uv.size(), v = n / 2;
@@ -168,7 +169,7 @@ TEST_CASE("springs: the stiffer, the nearer; together with a pin, too")
 
 TEST_CASE("springs: alone they place the map")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto free = parameterize(q, m);
     constraints<triangle> wanted(m);
@@ -181,7 +182,7 @@ TEST_CASE("springs: alone they place the map")
 
 TEST_CASE("pins: a triangle that is pinned upside down is infeasible, and named")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     constraints<triangle> pins(m);
     const auto& t = m.cells()[17];
@@ -195,7 +196,7 @@ TEST_CASE("pins: a triangle that is pinned upside down is infeasible, and named"
 
 TEST_CASE("pins: with a fixed boundary and a start of one's own they hold, too")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto start = barycentric_map(m, facets(m), {}).uv;
     constraints<triangle> pins(m);
@@ -212,7 +213,7 @@ TEST_CASE("pins: with a fixed boundary and a start of one's own they hold, too")
 
 TEST_CASE("start: flipped, collapsed and scrambled triangles are untangled, mirrored ones turned over")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto good = parameterize(q, m);
     REQUIRE(good);
@@ -239,7 +240,7 @@ TEST_CASE("start: flipped, collapsed and scrambled triangles are untangled, mirr
 
 TEST_CASE("pins: an energy that does not see scale keeps the scale that the pins give")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     constraints<triangle> pins(m);
     pins.pin(0, vec2(0, 0)).pin(static_cast<taut::idx>(m.vertex_count() - 1), vec2(50, 0));
@@ -251,7 +252,7 @@ TEST_CASE("pins: an energy that does not see scale keeps the scale that the pins
 
 TEST_CASE("pins: numbers at the ends of the range come out bit for bit")
 {
-    queue q;
+    queue q(test::shared_context());
     auto points = hills().points();
     for (vec3& p : points) p *= 1e6;
     const mesh<triangle> m(std::move(points), hills().cells());
@@ -268,7 +269,7 @@ TEST_CASE("pins: numbers at the ends of the range come out bit for bit")
 
 TEST_CASE("pins: a few that are moved far, with a free boundary, leave no vertex that the map winds around twice")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::bumpy(test::sized(24, 8), 0.4, 11);
     const auto free = parameterize(q, m);
     REQUIRE(free);
@@ -294,7 +295,7 @@ TEST_CASE("pins: a few that are moved far, with a free boundary, leave no vertex
 
 TEST_CASE("pins: those of another mesh are refused with the vertex")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills(), large = test::bumpy(40, 0.2, 2);
     constraints<triangle> pins(large);
     pins.pin(large.vertex_count() - 1, vec2(0.0));

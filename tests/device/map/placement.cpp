@@ -12,6 +12,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 
 #include <taut/impl/constrain/place_map.hpp>
 #include <taut/impl/map/parameterize.hpp>
@@ -112,7 +113,7 @@ std::vector<vec2> free_map(queue& q, const mesh<triangle>& m, parameterize_param
 
 TEST_CASE("placement: the map of a surface, of its rounding to float and of its translation lie in one place")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const auto& m : {hill(), test::tube(10, 1.5), test::cap(8)})
     {
         const auto uv = free_map(q, m);
@@ -125,7 +126,7 @@ TEST_CASE("placement: the map of a surface, of its rounding to float and of its 
 
 TEST_CASE("placement: the order of vertices, triangles and corners does not matter")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hill();
     const auto uv = free_map(q, m);
     for (const unsigned seed : {1u, 2u, 3u})
@@ -141,7 +142,7 @@ TEST_CASE("placement: the order of vertices, triangles and corners does not matt
 
 TEST_CASE("placement: a map does not depend on where its start lies, unless it is left as solved")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hill();
     const auto uv = free_map(q, m);
     auto turned = uv;
@@ -152,7 +153,7 @@ TEST_CASE("placement: a map does not depend on where its start lies, unless it i
 
 TEST_CASE("placement: a flat surface lies as it does in space, and up is up on a tube that was cut open")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto flat = test::grid(6, 9);
     const auto uv = free_map(q, flat);
     for (std::size_t v = 0; v < uv.size(); ++v)
@@ -179,7 +180,7 @@ TEST_CASE("placement: a flat surface lies as it does in space, and up is up on a
 
 TEST_CASE("placement: a dome with y up lies as it is seen from above")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto dome = with_points(test::cap(8, 2), [](vec3 p) { return vec3(p.x, p.z, -p.y); });
     const auto map = free_map(q, dome);
     const auto at = [&](auto farthest)
@@ -221,7 +222,7 @@ TEST_CASE("placement: a torus that was cut open shows no axis and lies along its
 
 TEST_CASE("placement: the unit square is filled along one side, and the report tells the scale")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = with_points(hill(), [](vec3 p) { return 300.0 * p; });
     const auto uv = free_map(q, m);
     const auto r = parameterize(q, m, {.placement = placement::unit_square});
@@ -238,7 +239,7 @@ TEST_CASE("placement: the unit square is filled along one side, and the report t
 
 TEST_CASE("placement: a map that is held is never moved")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hill();
     for (const auto where : {placement::upright, placement::unit_square})
     {

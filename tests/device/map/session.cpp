@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
@@ -113,7 +114,7 @@ vec2 at(const session<triangle>& s, idx v)
 
 TEST_CASE("session: the first map is that of parameterize()")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     CHECK(s.x().empty());
@@ -132,7 +133,7 @@ TEST_CASE("session: the first map is that of parameterize()")
 TEST_CASE("session: a pin that is dragged holds bit for bit in valid maps that do not jump, and ends where a map from "
           "scratch does")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const auto& m : {bump(), spiral(), coarse()})
     {
         CAPTURE(m.cells().size());
@@ -164,7 +165,7 @@ TEST_CASE("session: a pin that is dragged holds bit for bit in valid maps that d
 
 TEST_CASE("session: where pins are changes nothing but numbers, and who is pinned no more than lists")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     s.solve();
@@ -191,7 +192,7 @@ TEST_CASE("session: where pins are changes nothing but numbers, and who is pinne
 
 TEST_CASE("session: a map that is only carried off stays congruent, however far")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     const auto first = s.solve();
@@ -208,7 +209,7 @@ TEST_CASE("session: a map that is only carried off stays congruent, however far"
 
 TEST_CASE("session: what the budget leaves is told and done by the next calls; released pins let the map go back")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     const double rest = s.solve().report.energy;
@@ -243,7 +244,7 @@ TEST_CASE("session: what the budget leaves is told and done by the next calls; r
 
 TEST_CASE("session: a time limit ends it; the map is valid and the next call goes on")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     CHECK(s.solve({.time = std::chrono::duration<double>(0)}).report.outcome == outcome::stopped);
@@ -259,7 +260,7 @@ TEST_CASE("session: a time limit ends it; the map is valid and the next call goe
 
 TEST_CASE("session: a pin outside of a pinned boundary is proved to be so; the map stays near, and comes back")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     const auto first = s.solve();
@@ -284,7 +285,7 @@ TEST_CASE("session: a pin outside of a pinned boundary is proved to be so; the m
 
 TEST_CASE("session: a pin in another one's way stops it in a map of bounded energy, and with time it gets past")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     const double free = s.solve().report.energy;
@@ -313,7 +314,7 @@ TEST_CASE("session: a pin in another one's way stops it in a map of bounded ener
 
 TEST_CASE("session: many pins are moved together; coordinates alone, springs and a fixed boundary hold, too")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     const auto free = parameterize(q, m);
     session s(q, m, {.boundary = boundary_mode::fixed, .initial = free.uv});
@@ -355,7 +356,7 @@ TEST_CASE("session: many pins are moved together; coordinates alone, springs and
 
 TEST_CASE("session: params are those of parameterize(): first pins, energy, weights, precision, unit square")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     const auto free = parameterize(q, m);
     const handles h(m, free.uv);
@@ -392,7 +393,7 @@ TEST_CASE("session: params are those of parameterize(): first pins, energy, weig
 
 TEST_CASE("session: an observer sees maps of the way and can end the call")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     int maps = 0, asked = 0;
     bool go_on = true;
@@ -424,7 +425,7 @@ TEST_CASE("session: an observer sees maps of the way and can end the call")
 
 TEST_CASE("session: what cannot be is refused, and everything is as before")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     const auto refused = [&](auto&& call, constraint_error::fault_type fault)
@@ -464,7 +465,7 @@ TEST_CASE("session: what cannot be is refused, and everything is as before")
 TEST_CASE("session: restored, it has the map and the constraints of before, and goes on from there")
 {
     const auto surface = bump();
-    queue q;
+    queue q(test::shared_context());
     session s(q, surface);
     CHECK_THROWS_WITH_AS(s.restore({}, {}), doctest::Contains("no map yet"), parameter_error);
     REQUIRE(s.solve());
@@ -497,7 +498,7 @@ TEST_CASE("session: restored, it has the map and the constraints of before, and 
 
 TEST_CASE("session: infeasible first pins are no map but a proof; once they are changed there is one")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bump();
     session s(q, m);
     const auto& t = m.cells()[17];

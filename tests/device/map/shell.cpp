@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/exact/collapses.hpp>
@@ -88,7 +89,7 @@ TEST_CASE("shell: without pins the shape at rest is returned, and one that was m
 {
     const thin_shell shell(test::bumpy(6));
     const auto& m = shell.surface();
-    queue q;
+    queue q(test::shared_context());
     const auto still = deform(q, shell, {});
     check_shell(m, {}, still);
     CHECK(edge_change(m, still.x) < 1e-6);
@@ -115,7 +116,7 @@ TEST_CASE("shell: a strip that is bent to a ring keeps its edges, and one that i
     const thin_shell shell(strip());
     const auto& m = shell.surface();
     const double length = length_of(m);
-    queue q;
+    queue q(test::shared_context());
     const auto left = end_of(m, false), right = end_of(m, true);
 
     // Both ends stand up at the place where the ring closes, a little apart.
@@ -167,7 +168,7 @@ TEST_CASE(
 {
     const thin_shell shell(test::torus(test::sized(16, 10), false));
     const auto& m = shell.surface();
-    queue q;
+    queue q(test::shared_context());
     session<hinge> s(q, shell);
     const idx held = 0, dragged = m.vertex_count() / 2;
     const vec3 start = m.points()[static_cast<std::size_t>(dragged)];
@@ -191,7 +192,7 @@ TEST_CASE("shell: handles that turn far arrive in calls of a step each")
     const thin_shell shell(strip());
     const auto& m = shell.surface();
     const double length = length_of(m);
-    queue q;
+    queue q(test::shared_context());
     session<hinge> s(q, shell, {.thickness = 0.1 * length});
     for (const idx v : end_of(m, false)) s.pin(v, m.points()[static_cast<std::size_t>(v)]);
     s.solve();
@@ -212,7 +213,7 @@ TEST_CASE("shell: what cannot be a shell is refused")
     CHECK_THROWS_AS(thin_shell(test::moebius(8)), mesh_error);
 
     const thin_shell shell(test::grid(3, 3));
-    queue q;
+    queue q(test::shared_context());
     for (const double thickness : {0.0, -1.0, std::nan("")})
         CHECK_THROWS_WITH_AS(session<hinge>(q, shell, {.thickness = thickness}), doctest::Contains("thickness"),
                              parameter_error);

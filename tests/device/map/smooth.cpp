@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/map/smooth.hpp>
@@ -31,7 +32,7 @@ mesh<tetrahedron> turned(const mesh<tetrahedron>& m)
 TEST_CASE("smooth: elements get better, the worst most of all, and the boundary keeps its shape")
 {
     const auto m = test::jittered_cube(test::sized(8, 4), 1);
-    queue q;
+    queue q(test::shared_context());
     for (const auto boundary : {smooth_boundary::fixed, smooth_boundary::sliding, smooth_boundary::free})
     {
         CAPTURE(static_cast<int>(boundary));
@@ -58,7 +59,7 @@ TEST_CASE("smooth: elements get better, the worst most of all, and the boundary 
 TEST_CASE("smooth: flat sides and straight creases of any direction slide in themselves")
 {
     const auto m = test::jittered_cube(test::sized(6, 4), 1);
-    queue q;
+    queue q(test::shared_context());
     const auto straight = smooth(q, m), slanted = smooth(q, turned(m));
     REQUIRE(straight);
     REQUIRE(slanted);
@@ -86,7 +87,7 @@ TEST_CASE("smooth: a tangled mesh becomes a good one, fixed vertices stay")
     const idx still = inside.front();
     points[static_cast<std::size_t>(still)] = m.points()[static_cast<std::size_t>(still)];
     const mesh<tetrahedron> tangled(points, m.cells());
-    queue q;
+    queue q(test::shared_context());
     const auto r = smooth(q, tangled, {.worst_exponent = 3, .fixed = {still}});
     REQUIRE(r);
     CHECK(r.before.worst.mean_ratio < 0);
@@ -104,7 +105,7 @@ TEST_CASE("smooth: a mesh of the plane, and wrong parameters")
         for (int k = 0; k < 2; ++k)
             if (p[k] > 0 && p[k] < 1) p[k] += move(random);
     m = mesh<triangle>(points, m.cells());
-    queue q;
+    queue q(test::shared_context());
     const auto r = smooth(q, m);
     REQUIRE(r);
     CHECK(r.after.mean_ratio > r.before.mean_ratio);

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 #include <support/stage_watch.hpp>
 
@@ -38,7 +39,7 @@ int iterations(const std::vector<taut::impl::stage_report>& stages, const std::s
 
 TEST_CASE("stages: of a free map from coarse to fine, complete, with the energies and steps of the levels")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bumps();
     test::stage_watch watch;
     const auto r = parameterize(q, m, {}, {.observer = watch.observer()});
@@ -82,7 +83,7 @@ TEST_CASE("stages: of a free map from coarse to fine, complete, with the energie
 
 TEST_CASE("stages: of a map without levels, and of pins that are drawn or untangled")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = bumps();
     const auto plain =
         parameterize(q, m, {.start = start_method::barycentric, .solve = {.method = solve::method::lbfgs}});
@@ -114,7 +115,7 @@ TEST_CASE("stages: of a map without levels, and of pins that are drawn or untang
 
 TEST_CASE("stages: a barrier that cuts steps names the vertices of the elements that did")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::rings(8, [](double r, double angle)
                                { return vec3(r * std::cos(angle), r * std::sin(angle), 20 * r * r); });
     const auto r = parameterize(q, m, {.start = start_method::barycentric, .solve = {.max_iterations = 1}});
@@ -131,7 +132,7 @@ TEST_CASE("stages: a barrier that cuts steps names the vertices of the elements 
 
 TEST_CASE("stages: of a shape whose pins move, and of one that is untangled first")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::grid(12, 12);
     auto pins = constraints(m).pin(0, vec2(0, 0)).pin(m.vertex_count() - 1, vec2(m.points().back()) + vec2(0.1, 0.2));
     auto initial = std::vector<vec2>(m.points().begin(), m.points().end());

@@ -11,6 +11,7 @@
 
 #include "support/device.hpp"
 #include "support/lane_forms.hpp"
+#include <support/shared_context.hpp>
 
 using namespace taut;
 using namespace taut::impl;
@@ -124,7 +125,7 @@ std::vector<std::array<taut::idx, K>> random_cells(std::size_t rows)
 template <class T, std::size_t K>
 void check_transfers(const std::vector<std::array<taut::idx, K>>& cells, std::size_t n, int D)
 {
-    queue q;
+    queue q(test::shared_context());
     const some_weights<K> P(n);
     std::vector<char> fixed(P.coarse, 0);
     fixed[2] = 1;
@@ -207,7 +208,7 @@ void check_identity(const std::vector<taut::idx>& rims, const std::vector<int>& 
     for (taut::idx v = 0; v < n; ++v) columns.emplace_back().fill(v);
     const std::vector<std::array<double, K>> weights(columns.size(), {1});
     const auto identity = transfer_weights::of_rows(columns, weights, columns.size());
-    queue q;
+    queue q(test::shared_context());
     for (const lane_form form : test::lane_forms())
         for (const int D : sizes)
         {
@@ -236,7 +237,7 @@ void check_identity(const std::vector<taut::idx>& rims, const std::vector<int>& 
 
 TEST_CASE_TEMPLATE("block sparse: products, residuals and smoothing steps are those of a host loop", T, float, double)
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test_mesh();
     for (const lane_form form : test::lane_forms())
         for (const int D : {2, 3})
@@ -308,7 +309,7 @@ TEST_CASE_TEMPLATE("block sparse: products, residuals and smoothing steps are th
 TEST_CASE_TEMPLATE("block sparse: element blocks are summed into place, transposed below, fixed rows left out", T,
                    float, double)
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test_mesh();
     const std::size_t n = m.points().size(), cells = m.cells().size(), stride = padded(cells, 256);
     std::vector<char> fixed(n, 0);

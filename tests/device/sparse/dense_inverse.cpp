@@ -11,6 +11,7 @@
 
 #include "support/device.hpp"
 #include "support/lane_forms.hpp"
+#include <support/shared_context.hpp>
 
 using namespace taut;
 using namespace taut::impl;
@@ -61,7 +62,7 @@ test::dense_matrix dense(const block_pattern& p, std::size_t d, const std::vecto
 
 TEST_CASE_TEMPLATE("dense inverse: that of the host, in the form for CPUs and in that for GPUs", T, float, double)
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::flat_disk(test::sized(6, 2));
     const auto n = static_cast<taut::idx>(m.points().size());
     std::vector<taut::idx> rows;
@@ -118,7 +119,7 @@ TEST_CASE_TEMPLATE("dense inverse: that of the host, in the form for CPUs and in
 TEST_CASE_TEMPLATE("dense inverse: a translation that the matrix does not see has little part in the answer", T, float,
                    double)
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::flat_disk(test::sized(4, 2));
     const std::size_t n = m.points().size();
     std::vector<taut::idx> rows(n);
@@ -177,7 +178,7 @@ TEST_CASE_TEMPLATE("dense inverse: a translation that the matrix does not see ha
 TEST_CASE_TEMPLATE("dense inverse: what is not finite or not positive is taken out, and the rest is finite", T, float,
                    double)
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::grid(3, 3);
     std::vector<taut::idx> rows(m.points().size());
     for (std::size_t v = 0; v < rows.size(); ++v) rows[v] = static_cast<taut::idx>(v);

@@ -13,6 +13,7 @@
 
 #include "support/device.hpp"
 #include "support/lane_forms.hpp"
+#include <support/shared_context.hpp>
 
 using namespace taut;
 using namespace taut::impl;
@@ -273,7 +274,7 @@ int solve(queue& q, multigrid& mg, double tolerance)
 template <class T, class Element>
 void check_cycle(const leveled_mesh<Element>& all, int D, lane_form form)
 {
-    queue q;
+    queue q(test::shared_context());
     CAPTURE(D);
     CAPTURE(form.lanes);
     const auto d = std::size_t(D);
@@ -311,7 +312,7 @@ void check_cycle(const leveled_mesh<Element>& all, int D, lane_form form)
 
 TEST_CASE_TEMPLATE("multigrid: the cycle is symmetric and positive", T, float, double)
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::grid(test::sized(40, 10), test::sized(30, 9));
     struct shape
     {
@@ -370,7 +371,7 @@ TEST_CASE_TEMPLATE("multigrid: the cycle of two levels is that of a host, fused 
 
 TEST_CASE("multigrid: conjugate gradients need as many cycles on fine meshes as on coarse ones")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto form = lane_form::for_device(q.device());
     for (const bool pinned : {false, true})
         for (const int D : {2, 3})
@@ -387,7 +388,7 @@ TEST_CASE("multigrid: conjugate gradients need as many cycles on fine meshes as 
 
 TEST_CASE("multigrid: in space, too, fine meshes need as many cycles as coarse ones")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto form = lane_form::for_device(q.device());
     const auto iterations = [&](const leveled_mesh<tetrahedron>& all, bool pinned)
     {

@@ -7,6 +7,7 @@
 #include <support/extreme_meshes.hpp>
 #include <support/meshes.hpp>
 #include <support/mips_power.hpp>
+#include <support/shared_context.hpp>
 #include <support/size.hpp>
 
 #include <taut/impl/energy/algebra.hpp>
@@ -68,7 +69,7 @@ std::vector<vec2> outline(const mesh<triangle>& m, const map_result& r)
 
 TEST_CASE("nested: Newton's method finds the minimum of plain BFGS from any start, in double and mixed")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const auto reference = long_lbfgs(q, m, {});
     REQUIRE(reference);
@@ -93,7 +94,7 @@ TEST_CASE("nested: Newton's method finds the minimum of plain BFGS from any star
 TEST_CASE("nested: every energy and weighting ends in one minimum, whatever the start")
 {
     using namespace taut::energy;
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     const std::pair<std::string, any_energy> energies[] = {
         {"isometric", isometric{}},
@@ -127,7 +128,7 @@ TEST_CASE("nested: every energy and weighting ends in one minimum, whatever the 
 
 TEST_CASE("nested: iterations on the mesh itself do not grow with it")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const int n : {test::sized(28, 4), test::sized(56, 5), test::sized(112, 6)})
     {
         const auto m = test::bumpy(n, 0.15, 1);
@@ -141,7 +142,7 @@ TEST_CASE("nested: iterations on the mesh itself do not grow with it")
 
 TEST_CASE("nested: the report tells of every level")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::bumpy(test::sized(96, 5), 0.25, 2);
     std::set<int> seen;
     const auto r = parameterize(q, m, {},
@@ -174,14 +175,14 @@ TEST_CASE("nested: the report tells of every level")
 
 TEST_CASE("nested: twice the same gives the same map, bit for bit")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     CHECK(parameterize(q, m).uv == parameterize(q, m).uv);
 }
 
 TEST_CASE("nested: a fixed boundary is the same outline on every path, and stays bit for bit")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     for (const auto boundary : {boundary_mode::fixed, boundary_mode::square})
     {
@@ -211,7 +212,7 @@ TEST_CASE("nested: a fixed boundary is the same outline on every path, and stays
 
 TEST_CASE("nested: a start of one's own far from the origin keeps its fixed boundary, bit for bit")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::bumpy(test::sized(12, 3), 0.3, 2);
     auto start = barycentric_map(m).uv;
     for (auto& p : start) p += vec2(3, -2);
@@ -228,7 +229,7 @@ TEST_CASE("nested: a start of one's own far from the origin keeps its fixed boun
 
 TEST_CASE("nested: surfaces with holes")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const auto& m : {with_hole(test::sized(40, 6)), test::annulus(test::sized(60, 8))})
         for (const auto boundary : {boundary_mode::free, boundary_mode::fixed})
         {
@@ -239,7 +240,7 @@ TEST_CASE("nested: surfaces with holes")
 
 TEST_CASE("nested: the smallest meshes, and meshes of pinned vertices only")
 {
-    queue q;
+    queue q(test::shared_context());
     const mesh<triangle> meshes[] = {test::single_triangle(), test::grid(1, 1),    test::fan(3),
                                      test::fan(5, true),      test::fan(10),       test::fan(10, true),
                                      test::grid(1, 8),        test::fan(60, true), test::grid(2, 40)};
@@ -258,7 +259,7 @@ TEST_CASE("nested: the smallest meshes, and meshes of pinned vertices only")
 
 TEST_CASE("nested: preconditioned BFGS and conjugate gradients converge, in fewer iterations than without")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = hills();
     for (const auto method : {solve::method::lbfgs, solve::method::conjugate_gradient})
     {
@@ -285,7 +286,7 @@ TEST_CASE("nested: preconditioned BFGS and conjugate gradients converge, in fewe
 
 TEST_CASE("nested: bodies with a short slit converge by default")
 {
-    queue q;
+    queue q(test::shared_context());
     for (const auto& m : {test::slit(test::sphere(test::sized(4, 2)), 2), test::slit(test::animal(24), 5)})
     {
         CAPTURE(m.cells().size());
@@ -295,7 +296,7 @@ TEST_CASE("nested: bodies with a short slit converge by default")
 
 TEST_CASE("nested: levels of a large hard shape grow more slowly, which saves iterations on the mesh itself")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto growth = [](const mesh<triangle>& m, const map_result& r)
     {
         REQUIRE(!r.report.levels.empty());
@@ -315,7 +316,7 @@ TEST_CASE("nested: levels of a large hard shape grow more slowly, which saves it
 
 TEST_CASE("nested: a tube 20 times as long as wide converges by default")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::long_tube(test::sized(12, 6), test::sized(20, 5));
     const auto r = parameterize(q, m);
     check_converged(m, r);
@@ -327,7 +328,7 @@ TEST_CASE("nested: a tube 20 times as long as wide converges by default")
 
 TEST_CASE("nested: the longest tubes get a certified map of moderate distortion by default")
 {
-    queue q;
+    queue q(test::shared_context());
     const std::pair<mesh<triangle>, double> tubes[] = {{test::long_tube(test::sized(12, 6), test::sized(90, 5)), 500},
                                                        {test::coiled_tube(test::sized(12, 6), test::sized(3, 1)), 200}};
     for (const auto& tube : tubes)
@@ -344,7 +345,7 @@ TEST_CASE("nested: the longest tubes get a certified map of moderate distortion 
 
 TEST_CASE("nested: a caller who stops a run gets a certified map from the finest level on, and is not asked again")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::bumpy(test::sized(50, 5), 0.5, 3);
     const auto whole = parameterize(q, m);
     REQUIRE(whole);
@@ -380,7 +381,7 @@ TEST_CASE("nested: a caller who stops a run gets a certified map from the finest
 
 TEST_CASE("nested: a stop in any phase leaves a certified map or none")
 {
-    queue q;
+    queue q(test::shared_context());
     const auto m = test::bumpy(test::sized(50, 5), 0.5, 3);
     int asked = 0, last = 0;
     const auto count = [&](const taut::progress&) { return ++asked, true; };
