@@ -129,12 +129,12 @@ private:
         idx triangle, before; // what changed_ was
     };
 
-    /// Goes back to when triangles had been changed so often: prices of later states are not those of now.
+    /// Goes back to when triangles had been changed so often: prices of other states are not those of now.
     void forget(idx when)
     {
         for (; !marks_.empty(); marks_.pop_back()) changed_[u(marks_.back().triangle)] = marks_.back().before;
         for (price& p : prices_)
-            if (p.when > when) p.known = false;
+            if (p.when > when || p.map != map_) p.known = false;
     }
 
     bool is_tip(idx v) const { return !rest_.rim[u(v)] && seam_degree(rest_, flat_.seam, v) == 1; }

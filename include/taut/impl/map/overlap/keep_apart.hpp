@@ -89,7 +89,7 @@ private:
     /// Newton's method on the host.
     map on_host(const mesh<triangle>& plane, const deform_params<triangle>& how)
     {
-        constexpr double least_gain = 1e-7; // of the energy, by it
+        constexpr double least_gain = 1e-5; // of the energy, by it
         const auto ideal = elements_with_edges<triangle>(how.targets, 1.0, "targets");
         std::vector<target_shape<2>> shapes;
         for (std::size_t c = 0; c < ideal.measure.size(); ++c)
