@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts are bent into smaller squares within a bound of distortion.
+// Charts are bent into smaller squares within a bound of distortion, and kept from lying on themselves.
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -7,7 +7,9 @@
 #include <doctest/doctest.h>
 
 #include <support/shared_context.hpp>
+#include <support/strips.hpp>
 
+#include <taut/impl/atlas/cutting/mend_charts.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 #include <taut/impl/atlas/pressed_charts.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
@@ -59,7 +61,9 @@ TEST_CASE("pressed charts: the ends of an arc come nearer, within the bound and 
             atlas_run run{q, unlimited};
             const auto before = set.uv;
             const double side = least_square::of(before).side;
+            const auto launches = q.counters().launches;
             chart_press(run, set, {}, bound).run(5);
+            CHECK(q.counters().launches == launches); // on the host
             CHECK(run.report.complete);
             if (more < 0)
             {
@@ -92,4 +96,29 @@ TEST_CASE("pressed charts: what is plane stays as it is")
     const auto before = set.uv;
     CHECK_FALSE(chart_press(run, set, {}, 4.1).run(5));
     CHECK(set.uv == before);
+}
+
+TEST_CASE("kept apart: a small chart that lies on itself is mapped beside itself, on the host")
+{
+    queue q;
+    const auto m = test::ramp(60, 4, 1.4, 0.6, 0.5);
+    const auto free = parameterize(q, m);
+    REQUIRE(free);
+    const auto f = facets(m);
+    std::vector<vec2> uv;
+    for (const auto& t : m.cells())
+        for (const taut::idx v : t) uv.push_back(free.uv[static_cast<std::size_t>(v)]);
+    chart_set set =
+        cut(m, f, {std::vector<char>(f.twin.size(), 0), std::move(uv), std::vector<double>(m.cells().size(), 4)});
+    std::vector<char> bad = crossing_charts(set.charts, set.uv);
+    REQUIRE(bad == std::vector<char>{1});
+    const run_limits unlimited;
+    atlas_run run{q, unlimited};
+    const auto launches = q.counters().launches;
+    keep_apart(run, set, bad);
+    CHECK(q.counters().launches == launches);
+    CHECK(bad[0] == 0);
+    CHECK(crossing_charts(set.charts, set.uv)[0] == 0);
+    CHECK(turned_triangle(set.charts, 0, set.uv) < 0);
+    CHECK(set.energy[0] < 4.1);
 }

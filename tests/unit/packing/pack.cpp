@@ -397,3 +397,16 @@ TEST_CASE("pack: two arcs are nested at directions that are no sixteenth of a ci
     const auto packed = taut::pack(uv, cells, first_cell, first_vertex);
     CHECK(packed.utilization > 0.55); // 0.52 in sixteen directions
 }
+
+TEST_CASE("pack: no better layout is looked for than is enough")
+{
+    const chart_set s = support::ragged_charts(12, 100, 20, 7);
+    const auto outlines = taut::impl::find_outlines(s.uv, s.cells, s.first_cell, s.first_vertex);
+    const auto to = [&](double enough)
+    { return taut::impl::pack_outlined(s.uv, outlines, {}, {}, taut::impl::packing_effort::full, enough); };
+    const auto all = to(2);
+    const auto some = to(0.9 * all.utilization);
+    CHECK(some.utilization >= 0.9 * all.utilization);
+    CHECK(some.layouts < all.layouts / 4);
+    CHECK(to(1.001 * all.utilization).utilization == all.utilization);
+}

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -56,7 +57,7 @@ public:
         std::iota(all.begin(), all.end(), idx(0));
         auto charts = charts_of(all, seam);
         std::vector<char> first = seam;
-        const double at_first = use_ = use_of(charts, packing_effort::full);
+        const double at_first = use_ = use_of(charts, packing_effort::full, enough);
         if (!(at_first < enough)) return first;
         double best_use = use_of(charts, packing_effort::estimate), use = best_use, spent = 0;
         double cost = 0, best_cost = 0;
@@ -75,7 +76,8 @@ public:
             best_cost = cost;
         }
         if (best_cost == 0) return first;
-        const double at_best = use_of(best, packing_effort::full);
+        const double at_best =
+            use_of(best, packing_effort::full, std::max(enough, at_first + 1.001 * least * best_cost));
         if (!(at_best - at_first > least * best_cost)) return first;
         use_ = at_best;
         return best;
@@ -85,11 +87,12 @@ public:
     double use() const { return use_; }
 
     /// How much of the square charts use, about.
-    double use_of(std::span<const char> seam, packing_effort effort = packing_effort::estimate)
+    double use_of(std::span<const char> seam, packing_effort effort = packing_effort::estimate,
+                  double enough_here = std::numeric_limits<double>::infinity())
     {
         std::vector<idx> all(mesh_.cells().size());
         std::iota(all.begin(), all.end(), idx(0));
-        return use_of(charts_of(all, seam), effort);
+        return use_of(charts_of(all, seam), effort, enough_here);
     }
 
 private:
@@ -152,7 +155,8 @@ private:
 
     const vec2& at(idx corner) const { return uv_[u(corner)]; }
 
-    double use_of(std::span<const laid_chart> charts, packing_effort effort) const
+    double use_of(std::span<const laid_chart> charts, packing_effort effort,
+                  double enough_here = std::numeric_limits<double>::infinity()) const
     {
         chart_outlines outlines;
         outlines.first.push_back(0);
@@ -166,7 +170,7 @@ private:
             outlines.first.push_back(static_cast<idx>(outlines.edges.size()));
             outlines.areas.push_back(one.area);
         }
-        return pack_outlined(uv_, outlines, packing_, limits_, effort).utilization;
+        return pack_outlined(uv_, outlines, packing_, limits_, effort, enough_here).utilization;
     }
 
     /// Room that a chart keeps others from, as it were: the mean of its hull and of the square on the long side of its

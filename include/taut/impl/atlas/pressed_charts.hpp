@@ -146,7 +146,8 @@ private:
                                    .initial = points(chart),
                                    .placement = placement::as_solved,
                                    .holes = true,
-                                   .no_overlap = true};
+                                   .no_overlap = true,
+                                   .tuning = {.apart = true}};
         std::vector<idx> border; // a vertex is on one loop, once
         for_each_border_side(set_.charts, chart, [&](idx from, idx) { border.push_back(from); });
         const idx first = set_.charts.first_vertex[u(chart)];

@@ -36,7 +36,7 @@ struct map_run
     {
         clock.spent(&map_seconds::setup);
         clock.stages.add({.stage = "setup", .vertices = vertices()});
-        if (!clock.proceed() || !params.uses_levels()) return;
+        if (!clock.proceed() || !params.uses_levels() || on_host()) return;
         levels.emplace(make_levels());
         clock.proceed();
     }
@@ -59,6 +59,13 @@ struct map_run
 
     /// Returns whether the map is unconstrained.
     bool is_free() const { return params.boundary == boundary_mode::free && !held.constrained(); }
+
+    /// Whether borders are kept apart on the host from the start on (map_tuning::apart).
+    bool on_host() const
+    {
+        constexpr std::size_t most = 2000; // vertices: a device is as fast for more
+        return params.tuning.apart && vertices() <= most;
+    }
 
     /// Without iterations the start is returned as it is.
     bool iterates() const { return params.solve.max_iterations > 0; }

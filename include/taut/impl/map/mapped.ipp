@@ -47,10 +47,21 @@ inline map_result solved(const map_run& run)
     return solved_result(run, second, attempt_in_turns(run, second));
 }
 
+/// The initial map as it is.
+inline map_result unchanged(const map_run& run)
+{
+    run_start start;
+    start.map = given_map(run.in.surface, run.in.ideal, run.params, run.in.unit, start.notes);
+    attempt none;
+    none.uv = start.map.uv;
+    none.solve.value = start.map.distortion.measure;
+    return solved_result(run, start, certified(run.in, std::move(none)));
+}
+
 map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock)
 {
     const map_run run(q, surface, params, clock);
-    map_result found = solved(run);
+    map_result found = run.on_host() ? unchanged(run) : solved(run);
     if (params.no_overlap) found = kept_apart(run, std::move(found));
     found = made_convex(run, std::move(found));
     map_result result = in_user_units(run, placed(run, std::move(found)));

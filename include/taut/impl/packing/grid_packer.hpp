@@ -95,6 +95,7 @@ private:
     {
         const int turns = !params_.rotate ? 1 : pieces_.size() <= 200 ? 8 : 4;
         poses_.assign(pieces_.size(), {});
+        halos_.reset(pieces_.size());
         parallel_for(
             pieces_.size(),
             [&](std::size_t begin, std::size_t end)
@@ -133,7 +134,7 @@ private:
         const bool quick = pieces_.size() > 1500 && params_.groups.empty();
         const auto walls = walls_in(g);
         const tile_layout l =
-            lay_out(pieces_, poses_, order_, g.columns, tiles, gap(g) + doubt, cells_per_length, quick,
+            lay_out(pieces_, poses_, halos_, order_, g.columns, tiles, gap(g) + doubt, cells_per_length, quick,
                     required ? unlimited : limits_, walls, {.rows = g.rows, .groups = params_.groups});
         ++packed_.layouts;
         if (!l.complete) return false;
@@ -221,6 +222,7 @@ private:
     double area_ = 0;
     std::vector<idx> order_;
     std::vector<std::vector<pose>> poses_;
+    kept_halos halos_;
     packing packed_;
 };
 

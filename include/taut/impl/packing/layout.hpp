@@ -59,19 +59,45 @@ struct taken_cells
     cell_rows cells;
 };
 
-/// Tiles that are not squares with an open end.
+/// Cells within a gap of pieces in their poses, kept from one layout to the next.
+class kept_halos
+{
+public:
+    /// Of pieces that are drawn anew.
+    void reset(std::size_t pieces)
+    {
+        rows_.clear();
+        rows_.resize(pieces);
+    }
+
+    const cell_rows& of(const piece& p, const pose& at, std::size_t c, idx k, double cells_per_length, double gap)
+    {
+        if (gap != gap_) reset(rows_.size());
+        gap_ = gap;
+        auto& halo = rows_[c][k];
+        if (halo.rows() == 0) halo = rasterize(posed_edges(p, at, cells_per_length), gap);
+        return halo;
+    }
+
+private:
+    std::vector<std::map<idx, cell_rows>> rows_; // of each piece, by pose
+    double gap_ = 0;
+};
+
+/// Tiles that are not squares with an open end, and what is asked of a layout.
 struct tile_rules
 {
     idx rows = 0;                  ///< height of each tile in cells; 0: that of `side`, and the last one has no end
     std::span<const idx> groups{}; ///< the tile that each piece is to be in; empty: any
     std::span<const idx> only{};   ///< the pose that each piece is to have, -1: any; empty: any
+    idx top = std::numeric_limits<idx>::max() / 2; ///< where a piece ends above this row, the layout is given up
 };
 
 /// Places pieces, in the order given, each in the pose whose top is lowest, as low as possible and then as far left, in
 /// any gap.
 /// side:  of a tile in cells; gap: minimum distance of two pieces in cells; before: cells occupied already
 /// quick: a piece is not tried below the place of the last one of about its width and height
-inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses,
+inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::vector<pose>> poses, kept_halos& halos,
                            std::span<const idx> order, idx side, idx tiles, double gap, double cells_per_length,
                            bool quick, budget& limits, std::span<const taken_cells> before = {},
                            const tile_rules& rules = {})
@@ -99,7 +125,7 @@ inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::v
             if (mask.cells.width > side || ((tiles > 1 || bounded) && height > rows)) continue;
             const auto size = [](idx n) { return static_cast<int>(4 * std::log2(n)); };
             idx* const start = quick ? &starts[{size(mask.cells.width), size(height)}] : nullptr;
-            const idx highest = best.pose < 0 ? std::numeric_limits<idx>::max() / 2 : lowest - height;
+            const idx highest = (best.pose < 0 ? rules.top : lowest) - height;
             idx x = -1, y = start ? *start : 0;
             const idx own = rules.groups.empty() ? -1 : rules.groups[c], last = own < 0 ? tiles : own + 1;
             for (idx tile = own < 0 ? tile_of(y) : own; tile < last && x < 0; ++tile)
@@ -116,7 +142,7 @@ inline tile_layout lay_out(std::span<const piece> pieces, std::span<const std::v
         }
         if (best.pose < 0) return out;
         const pose& at = poses[c][static_cast<std::size_t>(best.pose)];
-        taken.take(rasterize(posed_edges(pieces[c], at, cells_per_length), gap), best.x, best.y);
+        taken.take(halos.of(pieces[c], at, c, best.pose, cells_per_length, gap), best.x, best.y);
         best.y -= best.tile * (rows + 1);
         out.spots[c] = best;
     }

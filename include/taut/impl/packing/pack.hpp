@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -72,9 +73,11 @@ enum class packing_effort
     full
 };
 
-/// Packs charts with known borders in these coordinates.
+/// Packs charts with known borders in these coordinates. enough: use of the tiles beyond which no better layout is
+/// looked for
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params,
-                      const run_limits& limits, packing_effort effort = packing_effort::full);
+                      const run_limits& limits, packing_effort effort = packing_effort::full,
+                      double enough = std::numeric_limits<double>::infinity());
 
 } // namespace taut::impl
 

@@ -27,10 +27,12 @@ namespace taut::impl
 class packer
 {
 public:
-    packer(std::span<const piece> pieces, const pack_params& params, const run_limits& limits, packing_effort effort)
+    packer(std::span<const piece> pieces, const pack_params& params, const run_limits& limits, packing_effort effort,
+           double enough)
         : pieces_(pieces),
           params_(params),
           effort_(effort),
+          enough_(enough),
           limits_(limits.time_limit, limits.observer),
           tiles_(params.walls.empty() ? std::min(params.tiles, static_cast<int>(pieces.size())) : params.tiles)
     {
@@ -165,8 +167,8 @@ private:
         tile_layout best;
         for (idx side = cells; side <= 4 * cells && !limits_.over();)
         {
-            tile_layout l = lay_out(pieces_, poses_, order_, side, params_.tiles, gap_in_cells(side), cells_per_length_,
-                                    quick, limits_, walls_in(side));
+            tile_layout l = lay_out(pieces_, poses_, halos_, order_, side, params_.tiles, gap_in_cells(side),
+                                    cells_per_length_, quick, limits_, walls_in(side));
             ++packed_.layouts;
             if (l.complete && std::max(l.width, l.height) <= side)
             {
@@ -194,6 +196,7 @@ private:
     /// very many each gets less time.
     void search(double length, int turns)
     {
+        if (packed_.utilization >= enough_) return;
         const std::size_t n = pieces_.size();
         const bool quick = n > 1500;
         const double in_one = static_cast<double>(n) / tiles_;
@@ -207,8 +210,8 @@ private:
         for (int k = 0; k < (quick || trial_ ? 3 : n > 200 ? 4 : 6) && !limits_.over(); ++k)
         {
             const double most = 1.02 * side + 1; // has its padding, too, if the layout is a little larger
-            tile_layout l =
-                lay_out(pieces_, poses_, order_, side, tiles_, gap_in_cells(most), cells_per_length_, quick, limits_);
+            tile_layout l = lay_out(pieces_, poses_, halos_, order_, side, tiles_, gap_in_cells(most),
+                                    cells_per_length_, quick, limits_);
             ++packed_.layouts;
             if (!l.complete)
             {
@@ -221,7 +224,7 @@ private:
                 least = used;
                 best = std::move(l);
             }
-            if (side == narrowest) break;
+            if (side == narrowest || least <= side_of(enough_)) break;
             side = std::max({idx{8}, narrowest, static_cast<idx>(std::lround(side * std::sqrt(filled)))});
         }
         if (!best.complete) return;
@@ -255,6 +258,12 @@ private:
         return most;
     }
 
+    /// The side, in cells, at which tiles are used so much.
+    double side_of(double use) const
+    {
+        return (1 - 2 * border_) * cells_per_length_ * std::sqrt(area_ / (use * tiles_));
+    }
+
     /// Tries other orders near the best one, none twice, in a number of constant total time, or a part of it; of few
     /// pieces other poses of single ones, too, since the pose that lies lowest need not leave the best room to the
     /// others.
@@ -267,7 +276,7 @@ private:
         double last = least;
         std::vector<idx> only(n, -1);                                        // pose of each piece, -1: any
         std::set<std::tuple<idx, std::vector<idx>, std::vector<idx>>> tried; // by side
-        const double bound = 1.002 * square_of_largest();
+        const double bound = std::max(1.002 * square_of_largest(), side_of(enough_));
         for (std::size_t k = 0; n > 1 && k < tries + more && least > bound && !limits_.over(); ++k)
         {
             auto order = order_;
@@ -286,11 +295,14 @@ private:
             const auto side = static_cast<idx>(least) - 1;
             if (side < narrowest) return;
             if (n <= few && !tried.emplace(side, order, posed).second) continue;
-            tile_layout l = lay_out(pieces_, poses_, order, side, tiles_, gap_in_cells(1.02 * side + 1),
-                                    cells_per_length_, n > 1500, limits_, {}, {.only = posed});
+            const double most = std::min(1.002 * last, 1.02 * side + 1);
+            tile_rules rules{.only = posed};
+            if (tiles_ == 1) rules.top = static_cast<idx>(most) + 1;
+            tile_layout l = lay_out(pieces_, poses_, halos_, order, side, tiles_, gap_in_cells(1.02 * side + 1),
+                                    cells_per_length_, n > 1500, limits_, {}, rules);
             ++packed_.layouts;
             const double used = std::max(l.width, l.height);
-            if (!l.complete || used > 1.002 * last || used > 1.02 * side + 1) continue;
+            if (!l.complete || used > most) continue;
             last = used;
             order_ = std::move(order);
             only = std::move(posed);
@@ -308,6 +320,7 @@ private:
         doubt_ = 0;
         for (const piece& p : pieces_) doubt_ = std::max(doubt_, p.doubt * cells_per_length_);
         poses_.assign(n, {});
+        halos_.reset(n);
         parallel_for(
             n,
             [&](std::size_t begin, std::size_t end)
@@ -365,6 +378,7 @@ private:
     std::span<const piece> pieces_;
     const pack_params& params_;
     packing_effort effort_;
+    double enough_;     // use of the tiles
     bool trial_ = true; // on a coarse grid, few layouts
     budget limits_;
     idx tiles_; // that pieces can be in: one needs no second one
@@ -372,12 +386,13 @@ private:
     double gap_ = 0, border_ = 0; // in tiles
     double cells_per_length_ = 0, doubt_ = 0;
     std::vector<std::vector<pose>> poses_;
+    kept_halos halos_;
     std::vector<idx> order_;
     packing packed_;
 };
 
 packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, const pack_params& params,
-                      const run_limits& limits, packing_effort effort)
+                      const run_limits& limits, packing_effort effort, double enough)
 {
     params.validate(outlines.charts());
     limits.validate();
@@ -386,7 +401,7 @@ packing pack_outlined(std::span<const vec2> uv, const chart_outlines& outlines, 
     if (!(area > 0)) throw packing_error(packing_error::no_area, {}, "the charts have no area; flatten them again");
     const auto pieces = make_pieces(uv, outlines, params.densities, params.rotate);
     if (params.on_grid()) return grid_packer(pieces, params, limits).run();
-    packing packed = packer(pieces, params, limits, effort).run();
+    packing packed = packer(pieces, params, limits, effort, enough).run();
     packed.resolution = params.resolution;
     packed.tiles = params.tiles;
     return packed;

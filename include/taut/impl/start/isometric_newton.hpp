@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <taut/impl/energy/isometric.hpp>
@@ -26,14 +27,26 @@ public:
         : held_(marks(fixed)), shapes_(shapes(points, cells, weights)), newton_(cells, shapes_, held_)
     {
     }
+    /// The same of given shapes; weights are those of all.
+    isometric_newton(std::span<const std::array<idx, 3>> cells, std::vector<target_shape<2>> shapes,
+                     fixed_marks<2> held)
+        : held_(std::move(held)), shapes_(relative(std::move(shapes))), newton_(cells, shapes_, held_)
+    {
+    }
     isometric_newton(const isometric_newton&) = delete;
     isometric_newton& operator=(const isometric_newton&) = delete;
 
-    /// Area mean; +infinity if a triangle is not surely positive.
-    double value(std::span<const vec2> x) const { return newton_.value(x, {}); }
+    /// Area mean, and springs; +infinity if a triangle is not surely positive.
+    double value(std::span<const vec2> x, std::span<const directed_spring<2>> springs = {}) const
+    {
+        return newton_.value(x, {}, springs);
+    }
 
     /// One step from x with decrease; returns the new value, or the old one if no step decreases it.
-    double step(std::vector<vec2>& x, double here) { return newton_.step(x, here, {}); }
+    double step(std::vector<vec2>& x, double here, std::span<const directed_spring<2>> springs = {})
+    {
+        return newton_.step(x, here, {}, springs);
+    }
 
 private:
     /// Isometric energy as a term of plane_newton.
@@ -59,15 +72,20 @@ private:
                                                std::span<const double> weights)
     {
         std::vector<target_shape<2>> all;
-        double total = 0;
         for (const auto& t : cells)
         {
             const vec3& first = points[static_cast<std::size_t>(t[0])];
             const mat2 W = stiff_ideal(points[static_cast<std::size_t>(t[1])] - first,
                                        points[static_cast<std::size_t>(t[2])] - first);
             all.push_back({invert_upper(W), weights.empty() ? 0.5 * W[0][0] * W[1][1] : weights[all.size()]});
-            total += all.back().weight;
         }
+        return relative(std::move(all));
+    }
+
+    static std::vector<target_shape<2>> relative(std::vector<target_shape<2>> all)
+    {
+        double total = 0;
+        for (const auto& s : all) total += s.weight;
         for (auto& s : all) s.weight /= total;
         return all;
     }

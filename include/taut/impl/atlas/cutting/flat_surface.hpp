@@ -125,26 +125,52 @@ struct cut_surface
     }
 };
 
+/// Newton's method on a whole map.
+class whole_newton
+{
+public:
+    /// Refers to its arguments; seams stay as they are.
+    whole_newton(const rest_surface& rest, flat_surface& flat)
+        : rest_(rest),
+          flat_(flat),
+          cut_(cut_surface::of(rest, flat)),
+          newton_(cut_.points, cut_.cells, std::vector<char>(cut_.points.size(), 0), rest.weight),
+          here_(newton_.value(cut_.uv))
+    {
+    }
+    whole_newton(const whole_newton&) = delete;
+    whole_newton& operator=(const whole_newton&) = delete;
+
+    /// Makes steps until one gains less than tolerance times the energy, or more like it would not lead below a bound:
+    /// gains halve at least. Sets the map and its energy. Returns how many were made.
+    int run(int steps, double tolerance, double bound = std::numeric_limits<double>::infinity())
+    {
+        int made = 0;
+        while (made < steps && here_ < std::numeric_limits<double>::infinity())
+        {
+            const double gain = here_ - newton_.step(cut_.uv, here_);
+            here_ -= gain;
+            ++made;
+            if (!(gain > tolerance * here_) || here_ - gain > bound) break;
+        }
+        for (std::size_t corner = 0; corner < flat_.fan.size(); ++corner)
+            flat_.uv[corner] = cut_.uv[rest_surface::u(cut_.cells[corner / 3][corner % 3])];
+        flat_.energy = mean_energy(rest_, flat_.uv);
+        return made;
+    }
+
+private:
+    const rest_surface& rest_;
+    flat_surface& flat_;
+    cut_surface cut_;
+    isometric_newton newton_;
+    double here_;
+};
+
 /// Newton steps of the whole map, until one gains less than tolerance times the energy. Sets flat.energy.
 inline int relax(const rest_surface& rest, flat_surface& flat, int steps, double tolerance)
 {
-    cut_surface cut = cut_surface::of(rest, flat);
-    const std::vector<char> fixed(cut.points.size(), 0);
-    isometric_newton newton(cut.points, cut.cells, fixed, rest.weight);
-    double here = newton.value(cut.uv);
-    int made = 0;
-    while (made < steps && here < std::numeric_limits<double>::infinity())
-    {
-        const double there = newton.step(cut.uv, here);
-        ++made;
-        const double gain = here - there;
-        here = there;
-        if (!(gain > tolerance * here)) break;
-    }
-    for (std::size_t corner = 0; corner < flat.fan.size(); ++corner)
-        flat.uv[corner] = cut.uv[rest_surface::u(cut.cells[corner / 3][corner % 3])];
-    flat.energy = mean_energy(rest, flat.uv);
-    return made;
+    return whole_newton(rest, flat).run(steps, tolerance);
 }
 
 /// Calls f(side, side) for the pairs of border edges of the same chart whose images meet, until it returns false;

@@ -34,7 +34,8 @@ inline void keep_apart(atlas_run& run, chart_set& set, std::vector<char>& bad, b
         parameterize_params params{.initial = {set.uv.begin() + first, set.uv.begin() + end},
                                    .placement = placement::as_solved,
                                    .holes = true,
-                                   .no_overlap = true};
+                                   .no_overlap = true,
+                                   .tuning = {.apart = true}};
         if (roughly)
         {
             params.solve = rough_solve(100);

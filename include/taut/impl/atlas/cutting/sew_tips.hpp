@@ -50,6 +50,7 @@ public:
         crossings_ = how_.keep_apart ? border_crossings(rest_, flat_, most_crossings) : 0;
         flat_surface good = flat_;
         std::vector<idx> good_tips = tips_, taken;
+        idx good_now = now_, good_map = map_;
         int since = 0, batch = 12;
         while (!how_.proceed || how_.proceed())
         {
@@ -63,13 +64,16 @@ public:
             }
             if (since < batch && !over && tip >= 0) continue;
             since = 0;
-            relax(rest_, flat_, 2, 1e-5);
-            if (flat_.energy > how_.bound) relax(rest_, flat_, 8, 1e-5);
+            map_ = ++maps_;
+            whole_newton all(rest_, flat_);
+            all.run(2, 1e-5);
+            if (flat_.energy > how_.bound) all.run(8, 1e-5, how_.bound);
             if (flat_.energy > how_.bound)
             {
                 flat_ = good;
                 tips_ = good_tips;
-                for (price& p : prices_) p.known = false;
+                map_ = good_map;
+                forget(good_now);
                 if (batch == 1)
                     for (const idx t : taken) prices_[u(t)].barred = true;
                 batch = 1;
@@ -78,6 +82,9 @@ public:
             {
                 good = flat_;
                 good_tips = tips_;
+                good_now = now_;
+                good_map = map_;
+                marks_.clear();
                 if (how_.keep_apart) crossings_ = border_crossings(rest_, flat_, most_crossings);
                 if (how_.told) how_.told(flat_);
                 if (flat_.energy > how_.bound - 0.03 * (how_.bound - 4)) batch = 1;
@@ -97,10 +104,11 @@ private:
         {
             const idx tip = cheapest(false);
             if (tip < 0) return;
-            if (flat_.energy + prices_[u(tip)].more / rest_.total > how_.bound)
+            if (flat_.energy + prices_[u(tip)].found.more / rest_.total > how_.bound)
                 prices_[u(tip)].barred = true; // a short edge, or one that is cheap for its length, may come after
             else
                 sew(tip);
+            marks_.clear();
         }
     }
 
@@ -110,12 +118,24 @@ private:
 
     struct price
     {
-        double rate = infinite;     // energy by price of the seam
-        double more = infinite;     // energy
-        std::vector<idx> triangles; // that it depends on
-        idx when = 0;
+        double rate = infinite; // energy by price of the seam
+        zip found;              // in the map `map`, as far as other zips have left its triangles as they were
+        idx when = 0, map = 0;
         bool known = false, barred = false;
     };
+
+    struct mark
+    {
+        idx triangle, before; // what changed_ was
+    };
+
+    /// Goes back to when triangles had been changed so often: prices of other states are not those of now.
+    void forget(idx when)
+    {
+        for (; !marks_.empty(); marks_.pop_back()) changed_[u(marks_.back().triangle)] = marks_.back().before;
+        for (price& p : prices_)
+            if (p.when > when || p.map != map_) p.known = false;
+    }
 
     bool is_tip(idx v) const { return !rest_.rim[u(v)] && seam_degree(rest_, flat_.seam, v) == 1; }
 
@@ -136,9 +156,8 @@ private:
         {
             price& p = prices_[u(t)];
             if (p.barred) continue;
-            const auto is_stale = [&](idx c) { return changed_[u(c)] > p.when; };
-            if (!p.known || std::any_of(p.triangles.begin(), p.triangles.end(), is_stale)) find_price(t);
-            const bool hopeless = likely && flat_.energy + (1 - given_back) * p.more / rest_.total > how_.bound;
+            if (!is_known(p)) find_price(t);
+            const bool hopeless = likely && flat_.energy + (1 - given_back) * p.found.more / rest_.total > how_.bound;
             if (p.rate < least && !hopeless) // the first of equal ones
             {
                 least = p.rate;
@@ -148,27 +167,29 @@ private:
         return best;
     }
 
+    bool is_known(const price& p) const
+    {
+        const auto is_stale = [&](idx c) { return changed_[u(c)] > p.when; };
+        return p.known && std::none_of(p.found.triangles.begin(), p.found.triangles.end(), is_stale);
+    }
+
     void find_price(idx tip)
     {
         price& p = prices_[u(tip)];
-        zip z = zipper_.look(flat_, tip);
+        p.found = zipper_.look(flat_, tip);
         p.known = true;
         p.when = now_;
-        p.more = z.more;
-        p.rate = z.side < 0 ? infinite : z.more / rest_.price[u(z.side)];
-        p.triangles = std::move(z.triangles);
+        p.map = map_;
+        p.rate = p.found.side < 0 ? infinite : p.found.more / rest_.price[u(p.found.side)];
     }
 
     /// Whether it was done.
     bool sew(idx tip)
     {
-        const zip z = zipper_.look(flat_, tip);
         price& p = prices_[u(tip)];
-        if (!(z.more < infinite))
-        {
-            p.rate = infinite;
-            return false;
-        }
+        if (p.map != map_) find_price(tip); // the whole map has followed since
+        const zip& z = p.found;
+        if (!(z.more < infinite)) return false;
         if (how_.keep_apart)
         {
             const auto was = zipper_.remember(flat_, z);
@@ -177,6 +198,7 @@ private:
             {
                 zipper_.take_back(flat_, z, was);
                 p.rate = infinite;
+                p.when = now_;
                 return false;
             }
             else
@@ -185,8 +207,10 @@ private:
         else
             zipper_.apply(flat_, z);
         ++now_;
-        for (const idx c : z.triangles) changed_[u(c)] = now_;
-        const idx next = rest_.end(z.side);
+        const zip done = std::exchange(p.found, {});
+        p.known = false;
+        for (const idx c : done.triangles) marks_.push_back({c, std::exchange(changed_[u(c)], now_)});
+        const idx next = rest_.end(done.side);
         std::erase(tips_, tip);
         std::erase(tips_, next);
         if (is_tip(next)) tips_.insert(std::lower_bound(tips_.begin(), tips_.end(), next), next);
@@ -200,6 +224,8 @@ private:
     zipper zipper_;
     std::vector<idx> changed_; // one a triangle: when it was
     idx now_ = 1;
+    idx map_ = 0, maps_ = 0;    // that the whole map has followed to, of how many
+    std::vector<mark> marks_;   // of changed_, since the last good state
     std::vector<price> prices_; // one a vertex
     std::vector<idx> tips_;     // ascending
     std::size_t crossings_ = 0;

@@ -15,6 +15,7 @@
 #include <taut/impl/map/run_result.hpp>
 #include <taut/impl/map/session/session_run.hpp>
 #include <taut/impl/map/session/shape_setup.hpp>
+#include <taut/impl/start/isometric_newton.hpp>
 
 namespace taut::impl
 {
@@ -63,6 +64,7 @@ private:
     {
         auto [plane, how] = scaffolded_.around(x_);
         how.solve.max_iterations = std::min(most_steps, left_);
+        if (run_.on_host()) return took(on_host(plane, how), {});
         const run_limits limits{run_.clock.left(), observer()};
         session_result<triangle> moved;
         try
@@ -80,18 +82,47 @@ private:
             return false;
         }
         if (r.stopped) run_.clock.proceed(); // if it was a limit, what is gained is no measure of convergence
-        ++rounds_;
         left_ -= std::min(left_, r.steps);
-        moved.x.resize(x_.size());
+        return took(std::move(moved.x), r);
+    }
+
+    /// Newton's method on the host.
+    map on_host(const mesh<triangle>& plane, const deform_params<triangle>& how)
+    {
+        constexpr double least_gain = 1e-5; // of the energy, by it
+        const auto ideal = elements_with_edges<triangle>(how.targets, 1.0, "targets");
+        std::vector<target_shape<2>> shapes;
+        for (std::size_t c = 0; c < ideal.measure.size(); ++c)
+            shapes.push_back({ideal.inverse[c], how.data.weights[c] * ideal.measure[c]});
+        const auto springs = directed(how.constraints.springs());
+        isometric_newton newton(plane.cells(), std::move(shapes), how.constraints.held());
+        map x(plane.points().begin(), plane.points().end());
+        double here = newton.value(x, springs);
+        for (int k = how.solve.max_iterations; k > 0 && run_.clock.proceed(); --k)
+        {
+            --left_;
+            const double there = newton.step(x, here, springs);
+            const double gain = here - there;
+            here = there;
+            if (!(gain > least_gain * here)) break;
+        }
+        return x;
+    }
+
+    /// Takes a map, of the scaffold, too, if it is better. Returns whether it did, and another round may gain more.
+    bool took(map x, const session_report& r)
+    {
+        ++rounds_;
+        x.resize(x_.size());
         const double before = energy_, gap_before = distance_;
         const bool held_before = farthest_ < 0 && rounds_ > 1;
-        const double now = scaffolded_.energy(moved.x);
+        const double now = scaffolded_.energy(x);
         if (held_before && !(now < before))
         {
             stop_ = solve::stop::decrease;
             return false;
         }
-        x_ = std::move(moved.x);
+        x_ = std::move(x);
         energy_ = now;
         gradient_ = r.gradient;
         farthest_ = r.farthest;
@@ -159,7 +190,7 @@ inline map_result kept_apart(const map_run& run, map_result r)
     told.before = count_boundary_crossings(loops, r.uv);
     run.clock.spent(&map_seconds::overlap);
     r.report.seconds = run.clock.seconds;
-    if (told.before.pairs == 0) return r;
+    if (told.before.pairs == 0 && !run.on_host()) return r;
     told.energy_before = r.report.solve.value;
     if (auto ends = fixed_across(run, loops, r.uv); !ends.empty())
         return refused(std::move(r), {outcome::infeasible,
