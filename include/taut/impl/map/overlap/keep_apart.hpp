@@ -190,8 +190,7 @@ inline map_result kept_apart(const map_run& run, map_result r)
     told.before = count_boundary_crossings(loops, r.uv);
     run.clock.spent(&map_seconds::overlap);
     r.report.seconds = run.clock.seconds;
-    const bool pulled = run.on_host() && !run.params.constraints.empty();
-    if (told.before.pairs == 0 && !pulled) return r;
+    if (told.before.pairs == 0 && !run.on_host()) return r;
     told.energy_before = r.report.solve.value;
     if (auto ends = fixed_across(run, loops, r.uv); !ends.empty())
         return refused(std::move(r), {outcome::infeasible,
