@@ -35,7 +35,7 @@ inline void keep_apart(atlas_run& run, chart_set& set, std::vector<char>& bad, b
                                    .placement = placement::as_solved,
                                    .holes = true,
                                    .no_overlap = true,
-                                   .tuning = {.apart = true}};
+                                   .tuning = {.apart = overlaps_itself(charts, k, set.uv)}};
         if (roughly)
         {
             params.solve = rough_solve(100);
