@@ -51,6 +51,14 @@ test_overlap()
     expect 0 unwrap ramp.obj -o crossed.obj --pins cross.csv --quiet
     rm crossed.obj
     expect 7 unwrap ramp.obj -o crossed.obj --no-overlap --pins cross.csv
-    error_says '0-1' '28[01]-28[01]' 'across'
+    error_says '1 pair .0-1-280-281. of edges between pinned vertices that meet'
     absent crossed.obj
+
+    # Corners in one point, and a corner on an edge.
+    printf '0,0,0\n168,0,0\n' >point.csv
+    expect 7 unwrap grid.obj -o crossed.obj --no-overlap --pins point.csv
+    error_says '1 pair .0-168. of pinned vertices in one point'
+    printf '0,0,0\n1,1,0\n168,0.5,0\n' >on.csv
+    expect 7 unwrap grid.obj -o crossed.obj --no-overlap --pins on.csv
+    error_says '.0-1-168-168. of edges between pinned vertices that meet'
 }
