@@ -504,6 +504,7 @@ def wrong_usage():
                              (["ball.obj", "-o", "x.obj", "--texcoord-set", "1"], "--texcoord-set"),
                              (["ball.obj", "-o", "x.glb", "--texcoord-set", "1"], "--texcoord-set"),
                              (["ball.obj", "-o", "x.obj", "--read-texcoord-set", "1"], "--read-texcoord-set"),
+                             (["ball.glb", "-o", "x.glb", "--read-texcoord-set", "3"], "nothing is read"),
                              (["ball.obj", "-o", "x.obj", "--texels-per-unit", "9", "--max-resolution", "512"], "--max-resolution 512"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--keep-seams"], "--keep-seams"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--max-distortion", "5"], "no bound"),
