@@ -238,6 +238,9 @@ def repairs():
     done = run("atlas", "broken.obj", "-o", "none.obj", code=4)
     assert "--repair" in done.stderr, done.stderr
     assert not pathlib.Path("none.obj").exists()
+    write("flat.obj", [[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
+    done = run("atlas", "flat.obj", "-o", "none.obj", code=4)
+    assert "--repair would leave no triangle" in done.stderr and "repairs it" not in done.stderr, done.stderr
     run("atlas", "broken.obj", "-o", "out.obj", "--repair", "--stats", "s.json")
     s = stats("s.json")
     assert s["surfaces"][0]["mapped"] == len(faces)

@@ -141,6 +141,8 @@ private:
         auto result = taut::parameterize(*q, surface(), params, limits);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
+        if (params.no_overlap && params.boundary != boundary_mode::free && !params.holes)
+            report_.notes.push_back("no two triangles overlap on a circle or square: --no-overlap changes nothing");
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
