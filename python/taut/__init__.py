@@ -10,6 +10,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
 
 from . import energies
@@ -49,9 +50,15 @@ __all__ = [
 ]
 
 
+# Modules that import other packages: loaded when they are used first.
+_OTHER_PACKAGES = {"compat", "cortex", "grids", "meshio", "patterns", "pyvista", "trimesh"}
+
+
 def __getattr__(name: str) -> Any:
     if name == "__version__":
         from ._native import native
 
         return native().version
+    if name in _OTHER_PACKAGES:
+        return import_module(f"{__name__}.{name}")
     raise AttributeError(f"module 'taut' has no attribute {name!r}")

@@ -11,8 +11,6 @@ import taut
 
 def test_meshes_of_trimesh(torus, bowl):
     trimesh = pytest.importorskip("trimesh")
-    import taut.trimesh
-
     mesh = trimesh.Trimesh(*torus, process=False)
     made = taut.trimesh.unwrap(mesh)
     assert made.visual.uv.shape == (len(made.vertices), 2) and len(made.faces) == len(mesh.faces)
@@ -23,8 +21,6 @@ def test_meshes_of_trimesh(torus, bowl):
 
 def test_meshes_of_meshio(bar):
     meshio = pytest.importorskip("meshio")
-    import taut.meshio
-
     V, C = bar
     mesh = meshio.Mesh(V, [("tetra", C)], cell_data={"k": [np.arange(len(C))]})
     low = np.flatnonzero(V[:, 2] == 0)

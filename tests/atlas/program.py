@@ -238,6 +238,9 @@ def repairs():
     done = run("atlas", "broken.obj", "-o", "none.obj", code=4)
     assert "--repair" in done.stderr, done.stderr
     assert not pathlib.Path("none.obj").exists()
+    write("flat.obj", [[0, 0, 0], [1, 0, 0], [2, 0, 0]], [[0, 1, 2]])
+    done = run("atlas", "flat.obj", "-o", "none.obj", code=4)
+    assert "--repair would leave no triangle" in done.stderr and "repairs it" not in done.stderr, done.stderr
     run("atlas", "broken.obj", "-o", "out.obj", "--repair", "--stats", "s.json")
     s = stats("s.json")
     assert s["surfaces"][0]["mapped"] == len(faces)
@@ -504,6 +507,7 @@ def wrong_usage():
                              (["ball.obj", "-o", "x.obj", "--texcoord-set", "1"], "--texcoord-set"),
                              (["ball.obj", "-o", "x.glb", "--texcoord-set", "1"], "--texcoord-set"),
                              (["ball.obj", "-o", "x.obj", "--read-texcoord-set", "1"], "--read-texcoord-set"),
+                             (["ball.glb", "-o", "x.glb", "--read-texcoord-set", "3"], "nothing is read"),
                              (["ball.obj", "-o", "x.obj", "--texels-per-unit", "9", "--max-resolution", "512"], "--max-resolution 512"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--keep-seams"], "--keep-seams"),
                              (["ball.obj", "-o", "x.obj", "--charts", "keep", "--max-distortion", "5"], "no bound"),

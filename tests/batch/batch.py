@@ -171,13 +171,13 @@ def poison():
 
     # One that has a map keeps it. Its kernels are compiled by the one before.
     sheet("endless map.obj", 250)
-    unwrap = lambda iterations: ["unwrap", "endless map.obj", "-o", "flat.obj", "--solver", "gd", "--tolerance", "0", "--iterations", str(iterations)]
-    manifest([{"id": "first", "args": unwrap(3)}, {"id": "endless map", "args": unwrap(2_000_000_000), "time_limit": 5}])
+    unwrap = lambda iterations, out: ["unwrap", "endless map.obj", "-o", out, "--solver", "gd", "--tolerance", "0", "--iterations", str(iterations)]
+    manifest([{"id": "first", "args": unwrap(3, "first.obj")}, {"id": "endless map", "args": unwrap(2_000_000_000, "flat.obj"), "time_limit": 5}])
     os.remove("results.jsonl")
     batch("--grace", "60", code=10)
     r = results()["endless map"]
     assert (r["outcome"], r["code"]) == ("time_limit", 143) and r["seconds"] >= 5, r
-    assert r["outputs"] == {"flat.obj": sha256("flat.obj")} != results()["first"]["outputs"], r
+    assert r["outputs"] == {"flat.obj": sha256("flat.obj")} and sha256("flat.obj") != sha256("first.obj"), r
 
     # Who does not listen is killed after the grace.
     manifest([check("endless", time_limit=0.5)])

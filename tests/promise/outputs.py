@@ -159,7 +159,8 @@ def each_option_says_what_its_files_are(t):
             probe = f"{command}{found}" + (re.match(r"(?:FILE|OUT)(\.\w+)", kind) or [0, ".exr" if name == "--map" else ".txt"])[1]
             value = [name, f"group={probe}" if kind == "MOVE" else probe] if name.startswith("-") else [probe]
             extra = ["--refine"] if name == "--refined-map" else []
-            jobs.append({"id": probe, "args": [command, *required[command], *value, *extra]})
+            own = [re.sub(r"^o\.", f"o{found}.", word) for word in required[command]]  # jobs share no output
+            jobs.append({"id": probe, "args": [command, *own, *value, *extra]})
     t.write("jobs.jsonl", "".join(json.dumps(job) + "\n" for job in jobs))
     t("batch", "--manifest", "jobs.jsonl", "--out", "results.jsonl", "--quiet", code=10)
     read = written = 0

@@ -43,6 +43,8 @@ test_overlap()
     expect 0 unwrap grid.obj -o plain.obj --quiet
     expect 0 unwrap grid.obj -o same.obj --no-overlap --stats same.json --quiet
     cmp -s plain.obj same.obj || fail '--no-overlap changed a map without crossings'
+    expect 0 unwrap grid.obj -o same.obj --no-overlap --boundary circle
+    says err '--no-overlap changes nothing'
     keys same.json overlap.crossings_before overlap.rounds
     says values '^overlap.crossings_before=0' '^overlap.rounds=0'
 
@@ -51,6 +53,14 @@ test_overlap()
     expect 0 unwrap ramp.obj -o crossed.obj --pins cross.csv --quiet
     rm crossed.obj
     expect 7 unwrap ramp.obj -o crossed.obj --no-overlap --pins cross.csv
-    error_says '0-1' '28[01]-28[01]' 'across'
+    error_says '1 pair .0-1-280-281. of edges between pinned vertices that meet'
     absent crossed.obj
+
+    # Corners in one point, and a corner on an edge.
+    printf '0,0,0\n168,0,0\n' >point.csv
+    expect 7 unwrap grid.obj -o crossed.obj --no-overlap --pins point.csv
+    error_says '1 pair .0-168. of pinned vertices in one point'
+    printf '0,0,0\n1,1,0\n168,0.5,0\n' >on.csv
+    expect 7 unwrap grid.obj -o crossed.obj --no-overlap --pins on.csv
+    error_says '.0-1-168-168. of edges between pinned vertices that meet'
 }

@@ -49,8 +49,32 @@ concave()
         END { print convex + 0, bad + 0 }' "$1"
 }
 
+# quad_torus N: of N x N quads, twisted, so that short ways around it run across quads.
+quad_torus()
+{
+    awk -v n="$1" '
+        function vertex(i, j) { return j % n * n + i % n + 1 }
+        BEGIN {
+            for (j = 0; j < n; ++j)
+                for (i = 0; i < n; ++i) {
+                    b = 6.283185307179586 * j / n; a = 6.283185307179586 * (i + 0.7 * j) / n; r = 3 + cos(b)
+                    printf "v %.17g %.17g %.17g\n", r * cos(a), r * sin(a), sin(b)
+                }
+            for (j = 0; j < n; ++j)
+                for (i = 0; i < n; ++i)
+                    print "f", vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)
+        }'
+}
+
 test_polygons()
 {
+    # Seams of --cut follow edges of polygons alone.
+    quad_torus 10 >torus.obj
+    expect 0 unwrap torus.obj -o out.obj --cut --quiet
+    same_vertices torus.obj out.obj
+    [ "$(lines_of f out.obj)" = 100 ] || fail "100 quads do not stay 100 quads"
+    valid_map out.obj
+
     # Of the triangles alone the map makes some quads concave: else there would be nothing to see.
     rough_quads 12 >quads.obj
     awk '$1 == "f" { print "f", $2, $3, $4; print "f", $2, $4, $5; next } { print }' quads.obj >triangles.obj

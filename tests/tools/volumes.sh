@@ -41,6 +41,9 @@ test_volumes()
     keys stats.json schema format outcome inverted_start inverted branch_edges quality.mean_ratio.worst seconds.total
     says values 'schema=taut.untangle/1' '^inverted=0$' '^branch_edges=0$'
     png out.png
+    echo 'vertex,x,y,z' >none.csv # as a page without pins saves it
+    expect 0 untangle in.mesh -o out.mesh --boundary fixed --pins none.csv
+    says err 'none.csv: no pins in it'
     expect 0 check out.mesh --json
     cp out check.json
     keys check.json elements.tetrahedra components quality.mean_ratio.worst groups.0.name inverted

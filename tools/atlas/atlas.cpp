@@ -100,7 +100,11 @@ public:
             std::string more;
             if (!options_.repair && e.fault() != mesh_error::empty && e.fault() != mesh_error::too_large)
             {
-                more = "; --repair repairs it";
+                const bool of_cells =
+                    e.fault() == mesh_error::degenerate_cell || e.fault() == mesh_error::repeated_vertex;
+                const bool all =
+                    of_cells && !sources_.empty() && e.ids().size() == sources_.back()->surface().cells().size();
+                more = all ? "; --repair would leave no triangle" : "; --repair repairs it";
                 for (const auto& s : sources_)
                     if (!s->near_edges.empty()) more += "; " + s->near_edges;
             }

@@ -240,6 +240,9 @@ void check(const atlas_options& o)
     const bool others = !std::all_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
     if (o.texcoord_set > 0 && !gltf) throw usage_error("--texcoord-set is of glTF that is read; leave it out");
     if (o.read_texcoord_set && !gltf) throw usage_error("--read-texcoord-set is of glTF that is read; leave it out");
+    if (o.read_texcoord_set && !o.keep_charts() && !o.keep_seams && o.pinned.empty())
+        throw usage_error(
+            "--read-texcoord-set: nothing is read; give --charts, --keep-seams or --pin, or leave it out");
     if (o.format != io::surface_format::automatic && !others)
         throw usage_error("--format is of OBJ, OFF, PLY and STL; leave it out for glTF");
     if (o.symmetric && (o.keep_charts() || !o.pinned.empty()))

@@ -15,6 +15,7 @@
 
 #include "batch/batch_run.hpp"
 #include "batch/job.hpp"
+#include "batch/job_conflicts.hpp"
 #include "batch/kernel_cache.hpp"
 #include "batch/scheduler_shard.hpp"
 #include "commands.hpp"
@@ -76,6 +77,7 @@ exit_code run(batch_options options, const outputs& files, const run_clock& cloc
 
     std::vector<batch::job> jobs, own;
     if (!options.run.from_standard_input) jobs = batch::read_manifest(options.manifest);
+    batch::require_own_files(jobs, options.manifest);
     for (std::size_t k = 0; k < jobs.size(); ++k)
         if (part->has(k)) own.push_back(std::move(jobs[k]));
     options.run.caches = options.cache.empty() ? batch::default_caches() : std::filesystem::path(options.cache);

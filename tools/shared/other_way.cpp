@@ -31,7 +31,7 @@ std::string other_way(mesh_error::fault_type fault, std::string_view name)
 std::string other_way(const io::io_error& error, std::string_view name)
 {
     if (name == "atlas" || !io::is_gltf(error.path())) return {};
-    return "models of glTF are for `taut atlas`, which writes any surface as .obj, too";
+    return "models of glTF are for `taut atlas`, which writes .glb and .gltf; convert it for other commands";
 }
 
 } // namespace taut::tools

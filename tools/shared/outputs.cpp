@@ -2,18 +2,15 @@
 #include "shared/outputs.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <system_error>
-#include <utility>
 #include <vector>
-
-#include <sys/stat.h>
 
 #include <taut/impl/io/atomic_file.hpp>
 
 #include "shared/companions.hpp"
 #include "shared/failure.hpp"
+#include "shared/file_identity.hpp"
 #include "shared/standard_streams.hpp"
 #include "shared/tile_names.hpp"
 
@@ -24,40 +21,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-/// One spelling for each file, whether it exists or not.
-fs::path spelled_out(const fs::path& path)
-{
-    std::error_code ignored;
-    auto full = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-    return full.empty() ? path : full;
-}
-
-/// What tells a file from others, by whatever name and link, looked up once.
-class file_identity
-{
-public:
-    explicit file_identity(const fs::path& path) : spelled_(spelled_out(path).string())
-    {
-#if !defined(_WIN32) // no numbers of files there; links are followed above
-        struct stat found = {};
-        if (::stat(path.c_str(), &found) == 0) node_ = std::pair(found.st_dev, found.st_ino);
-#endif
-    }
-
-    const std::string& spelled() const
-    {
-        return spelled_;
-    }
-    bool operator==(const file_identity& other) const
-    {
-        return (node_ && node_ == other.node_) || spelled_ == other.spelled_;
-    }
-
-private:
-    std::string spelled_;
-    std::optional<std::pair<dev_t, ino_t>> node_;
-};
 
 /// A file of a run and its identity.
 struct known_file

@@ -77,7 +77,12 @@ std::optional<io::cut_surface> cut_to_one_disk(const io::surface_file& file)
     const auto f = impl::facets(m);
     validate(m, f, {.referenced = false, .open = false, .one_boundary = false, .no_handles = false});
     if (check(m, f, {.referenced = false}).empty()) return std::nullopt;
-    const auto made = cut_charts(m, f, cut_to_disk(m, f));
+    const auto polygon = file.faces.of_triangles();
+    std::vector<char> diagonals(polygon.empty() ? 0 : f.twin.size(), 0);
+    for (std::size_t s = 0; s < diagonals.size(); ++s)
+        if (const idx twin = f.twin[s]; twin >= 0)
+            diagonals[s] = polygon[s / 3] == polygon[static_cast<std::size_t>(twin) / 3];
+    const auto made = cut_charts(m, f, cut_to_disk(m, f, diagonals));
     // The first sheet of a vertex has its number, further ones follow.
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     std::vector<vec3> points = m.points();
@@ -106,11 +111,7 @@ std::optional<io::cut_surface> cut_to_one_disk(const io::surface_file& file)
         for (std::size_t k = 0; k < 3; ++k)
         {
             cells[c][k] = sheet[u(made.surface.cells()[i][k])];
-            idx& corner = corners[file.faces.corner(c, k)];
-            if (corner >= 0 && corner != cells[c][k])
-                throw unsuitable_input(
-                    "the seam that --cut finds runs through a polygon; write the surface as triangles");
-            corner = cells[c][k];
+            corners[file.faces.corner(c, k)] = cells[c][k]; // the same in all triangles of a polygon
         }
     }
     std::vector<vec2> uv(points.size(), vec2(0.0));

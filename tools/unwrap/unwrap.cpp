@@ -141,6 +141,8 @@ private:
         auto result = taut::parameterize(*q, surface(), params, limits);
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
+        if (params.no_overlap && params.boundary != boundary_mode::free && !params.holes)
+            report_.notes.push_back("no two triangles overlap on a circle or square: --no-overlap changes nothing");
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
@@ -170,11 +172,6 @@ private:
             throw no_valid_map(map.reason + (options_.start == start_kind::uv
                                                  ? "; --start tutte makes a map without flips"
                                                  : "; --start mean-value or --spacing uniform may succeed"));
-        std::string ids;
-        for (std::size_t k = 0; k < std::min<std::size_t>(map.ids.size(), 8); ++k)
-            ids += (k == 0 ? " (" : ", ") + std::to_string(map.ids[k]);
-        if (map.ids.size() > 8) ids += ", ..";
-        if (!map.ids.empty()) ids += ')';
         const std::string best = name_of_invalid(options_.output);
         if (!best.empty())
             writing(
@@ -184,7 +181,7 @@ private:
                     write_obj(file, result.uv);
                     file.commit();
                 });
-        const std::string what = map.reason + ids + (best.empty() ? "" : "; the best map is in " + best);
+        const std::string what = map.reason + (best.empty() ? "" : "; the best map is in " + best);
         if (interrupted()) throw interrupted_run(what);
         throw no_valid_map(what + "; move the pins less far, or make some of them springs");
     }

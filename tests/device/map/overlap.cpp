@@ -212,6 +212,25 @@ TEST_CASE("no_overlap: edges of the boundary that are pinned across each other a
     CHECK(told == ends);
 }
 
+TEST_CASE("no_overlap: two vertices pinned to one point, or one to an edge of others, are refused before anything runs")
+{
+    queue q;
+    const auto m = winding_ramp();
+    const idx last = m.vertex_count() - 1;
+    const auto r =
+        parameterize(q, m, {.constraints = constraints(m).pin(0, {1, 2}).pin(last, {1, 2}), .no_overlap = true});
+    CHECK(r.report.outcome == outcome::infeasible);
+    CHECK(r.report.ids == std::vector<idx>{0, last});
+    CHECK(r.uv.empty());
+    const auto on = parameterize(
+        q, m, {.constraints = constraints(m).pin(0, {0, 0}).pin(1, {1, 0}).pin(last, {0.25, 0}), .no_overlap = true});
+    CHECK(on.report.outcome == outcome::infeasible);
+    CHECK(on.report.ids == std::vector<idx>{0, 1, last, last});
+    // A vertex that slides through it is none of these.
+    CHECK(parameterize(q, m, {.constraints = constraints(m).pin(0, {1, 2}).pin_u(last, 1), .no_overlap = true})
+              .report.outcome != outcome::infeasible);
+}
+
 TEST_CASE("no_overlap: a given map without crossings is gone on from")
 {
     queue q(test::shared_context());

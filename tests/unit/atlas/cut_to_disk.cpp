@@ -64,6 +64,25 @@ TEST_CASE("cut_to_disk: closed surfaces, handles and several boundaries end as o
     }
 }
 
+TEST_CASE("cut_to_disk: diagonals of polygons are never cut")
+{
+    for (const bool hole : {false, true})
+    {
+        // Sheared, so that the short ways run along diagonals.
+        const auto torus =
+            test::moved(test::torus(12, hole), [](const vec3& p) { return vec3(p.x + 2 * p.z, p.y, p.z); });
+        const auto f = facets(torus);
+        std::vector<char> diagonals(f.twin.size(), 0);
+        for (std::size_t s = 0; s < diagonals.size(); ++s)
+            diagonals[s] = f.twin[s] >= 0 && f.twin[s] / 6 == static_cast<idx>(s) / 6; // quads are pairs of triangles
+        const auto seam = cut_to_disk(torus, f, diagonals);
+        for (std::size_t s = 0; s < seam.size(); ++s) CHECK(!(seam[s] && diagonals[s]));
+        const auto charts = cut_charts(torus, f, seam);
+        REQUIRE(charts.charts() == 1);
+        CHECK(check(test::chart(charts, 0)).empty());
+    }
+}
+
 TEST_CASE("cut_to_disk: a disk needs no seam")
 {
     CHECK(check_disks(test::bumpy(12)) == 0);

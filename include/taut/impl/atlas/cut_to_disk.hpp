@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -78,7 +79,8 @@ private:
 class disk_cutting
 {
 public:
-    disk_cutting(const mesh<triangle>& m, const facet_table& f)
+    /// together: one flag per side, edges that are never cut, as the diagonals of polygons; or empty
+    disk_cutting(const mesh<triangle>& m, const facet_table& f, std::span<const char> together = {})
         : mesh_(m),
           facets_(f),
           sides_(starting_sides(m)),
@@ -88,6 +90,8 @@ public:
           on_rim_(component_.size(), 0),
           kind_(component_.size(), kind::closed)
     {
+        for (std::size_t s = 0; s < together.size(); ++s)
+            if (together[s] != 0) weight_[s] = never;
         disjoint_sets parts(m.vertex_count());
         for (const auto& t : m.cells())
             for (const idx v : t) parts.join(t[0], v);
@@ -131,6 +135,8 @@ private:
         closed, // with handles
         sphere
     };
+
+    static constexpr double never = std::numeric_limits<double>::infinity(); // the weight of edges that are not cut
 
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
@@ -176,11 +182,13 @@ private:
         {
             if (facets_.twin[u(s)] <= s) continue;
             mark(s, 1);
-            if (back.came[u(end(s))] != s && back.came[u(start(s))] != facets_.twin[u(s)])
+            if (weight_[u(s)] < never && back.came[u(end(s))] != s && back.came[u(start(s))] != facets_.twin[u(s)])
                 edges.emplace_back(-(weight_[u(s)] + back.distance[u(start(s))] + back.distance[u(end(s))]), s);
         }
         std::sort(edges.begin(), edges.end());
         disjoint_sets united(mesh_.cell_count());
+        for (idx s = 0; s < static_cast<idx>(seam_.size()); ++s)
+            if (seam_[u(s)] != 0 && weight_[u(s)] == never && united.join(s / 3, facets_.twin[u(s)] / 3)) mark(s, 0);
         for (const auto& edge : edges)
             if (united.join(edge.second / 3, facets_.twin[u(edge.second)] / 3)) mark(edge.second, 0);
     }
@@ -251,10 +259,10 @@ private:
     std::vector<kind> kind_;     // of components, at their first vertex
 };
 
-/// cut_to_disk() of a surface whose facets are f.
-inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const facet_table& f)
+/// cut_to_disk() of a surface whose facets are f. together: as of disk_cutting
+inline std::vector<char> cut_to_disk(const mesh<triangle>& m, const facet_table& f, std::span<const char> together = {})
 {
-    return disk_cutting(m, f).run();
+    return disk_cutting(m, f, together).run();
 }
 
 } // namespace taut::impl

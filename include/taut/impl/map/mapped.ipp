@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,7 +62,8 @@ inline map_result unchanged(const map_run& run)
 map_result mapped(const queue& q, const run_surface& surface, const parameterize_params& params, run_clock& clock)
 {
     const map_run run(q, surface, params, clock);
-    map_result found = run.on_host() ? unchanged(run) : solved(run);
+    auto proof = params.no_overlap ? refuse_meeting_pins(surface.surface, params.constraints) : std::nullopt;
+    map_result found = proof ? refused({}, std::move(*proof)) : run.on_host() ? unchanged(run) : solved(run);
     if (params.no_overlap) found = kept_apart(run, std::move(found));
     found = made_convex(run, std::move(found));
     map_result result = in_user_units(run, placed(run, std::move(found)));

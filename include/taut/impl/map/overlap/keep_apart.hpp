@@ -2,10 +2,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +16,7 @@
 #include <taut/impl/map/session/session_run.hpp>
 #include <taut/impl/map/session/shape_setup.hpp>
 #include <taut/impl/start/isometric_newton.hpp>
+#include <taut/impl/untangle/proofs/pinned_boundary.hpp>
 
 namespace taut::impl
 {
@@ -160,24 +161,54 @@ private:
     double distance_ = std::numeric_limits<double>::infinity();
 };
 
-/// End vertices of two crossing boundary edges whose vertices are all fixed; none if there are none.
-inline std::vector<idx> fixed_across(const map_run& run, const std::vector<std::vector<idx>>& loops,
-                                     const std::vector<vec2>& x)
+/// A proof that pins admit no map without overlaps, if there is one: a map that is one-to-one puts neither two vertices
+/// in one point nor edges across each other.
+inline std::optional<refusal> refuse_meeting_pins(const mesh<triangle>& m, const constraints<triangle>& wanted)
 {
-    const auto& marks = run.held.marks();
-    std::vector<idx> ends;
-    if (marks.empty()) return ends;
-    auto edges = edges_of(loops);
-    const auto moves = [&](const std::array<idx, 2>& e)
-    { return !marks.all(static_cast<std::size_t>(e[0])) || !marks.all(static_cast<std::size_t>(e[1])); };
-    edges.erase(std::remove_if(edges.begin(), edges.end(), moves), edges.end());
-    for_each_meeting(edges, x,
-                     [&](std::size_t i, std::size_t j)
-                     {
-                         ends = {edges[i][0], edges[i][1], edges[j][0], edges[j][1]};
-                         return false;
-                     });
-    return ends;
+    constexpr std::size_t most = 16, tests = 30'000'000; // a few are told; all pairs of many edges would take too long
+    std::vector<vec2> x(m.points().size());
+    std::vector<char> pinned(x.size(), 0), alone(x.size(), 0);
+    std::vector<idx> all;
+    for (const auto& [v, pin] : wanted.pins())
+    {
+        if (pin.held != fixed_marks<2>::every) continue;
+        const auto at = static_cast<std::size_t>(v);
+        x[at] = pin.value;
+        pinned[at] = alone[at] = 1;
+        all.push_back(v);
+    }
+    if (all.size() < 2) return std::nullopt;
+    const auto place = [&](idx v)
+    { return std::pair(x[static_cast<std::size_t>(v)].x, x[static_cast<std::size_t>(v)].y); };
+    std::stable_sort(all.begin(), all.end(), [&](idx a, idx b) { return place(a) < place(b); });
+    std::vector<idx> ids;
+    for (std::size_t k = 1; k < all.size() && ids.size() < 2 * most; ++k)
+        if (place(all[k - 1]) == place(all[k])) ids.insert(ids.end(), {all[k - 1], all[k]});
+    if (!ids.empty())
+        return refusal{outcome::infeasible,
+                       list_ids("pair", "pairs", ids, 2) +
+                           " of pinned vertices in one point, where nothing may overlap; move or free one of each",
+                       ids};
+
+    auto edges = pinned_edges(m, [&](idx v) { return pinned[static_cast<std::size_t>(v)] != 0; });
+    for (const auto& e : edges)
+        for (const idx v : e) alone[static_cast<std::size_t>(v)] = 0;
+    for (const idx v : all)
+        if (alone[static_cast<std::size_t>(v)]) edges.push_back({v, v});
+    for_each_meeting(
+        edges, x,
+        [&](std::size_t i, std::size_t j)
+        {
+            for (const auto& e : {edges[i], edges[j]}) ids.insert(ids.end(), e.begin(), e.end());
+            return ids.size() < 4 * most;
+        },
+        tests);
+    if (ids.empty()) return std::nullopt;
+    return refusal{outcome::infeasible,
+                   list_ids("pair", "pairs", ids, 4) +
+                       " of edges between pinned vertices that meet, where nothing may overlap; move or free a vertex "
+                       "of each",
+                   ids};
 }
 
 /// Returns a solved map without crossings of its boundary: unchanged where it has none, else minimised once more from a
@@ -192,12 +223,6 @@ inline map_result kept_apart(const map_run& run, map_result r)
     r.report.seconds = run.clock.seconds;
     if (told.before.pairs == 0 && !run.on_host()) return r;
     told.energy_before = r.report.solve.value;
-    if (auto ends = fixed_across(run, loops, r.uv); !ends.empty())
-        return refused(std::move(r), {outcome::infeasible,
-                                      "edges " + std::to_string(ends[0]) + '-' + std::to_string(ends[1]) + " and " +
-                                          std::to_string(ends[2]) + '-' + std::to_string(ends[3]) +
-                                          " of the boundary are fixed across each other",
-                                      ends});
     start_map start = start_apart(run, loops);
     run.clock.stages.add({.stage = "start", .vertices = run.vertices()});
     if (start.uv.empty())

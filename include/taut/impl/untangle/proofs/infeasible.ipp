@@ -74,15 +74,7 @@ void judge_places(const untangle_problem<triangle>& p, const facet_table& f, inf
                            " outside of the pinned boundary; move or free each";
                 });
 
-    std::vector<std::array<idx, 2>> edges;
-    for (idx side = 0; side < 3 * p.rest.cell_count(); ++side)
-    {
-        const auto [a, b] = side_vertices(p.rest, side);
-        if (p.held.all(static_cast<std::size_t>(a)) && p.held.all(static_cast<std::size_t>(b)))
-            edges.push_back({std::min(a, b), std::max(a, b)});
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    const auto edges = pinned_edges(p.rest, [&](idx v) { return p.held.all(static_cast<std::size_t>(v)); });
     constexpr std::size_t most = 16, tests = 30'000'000; // a few are told; all pairs of many edges would take too long
     const bool any_simple =
         std::any_of(boundaries.components.begin(), boundaries.components.end(), [](const auto& c) { return c.simple; });

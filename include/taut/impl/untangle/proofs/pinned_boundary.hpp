@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -38,6 +39,19 @@ struct pinned_boundaries
 };
 
 pinned_boundaries find_pinned_boundaries(const untangle_problem<triangle>& p, const facet_table& f);
+
+/// Edges of triangles between vertices that are pinned, each once.
+template <class Pinned>
+std::vector<std::array<idx, 2>> pinned_edges(const mesh<triangle>& m, const Pinned& pinned)
+{
+    std::vector<std::array<idx, 2>> edges;
+    for (idx side = 0; side < 3 * m.cell_count(); ++side)
+        if (const auto [a, b] = side_vertices(m, side); pinned(a) && pinned(b))
+            edges.push_back({std::min(a, b), std::max(a, b)});
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
 
 /// Finds pinned inner vertices that lie outside of the pinned boundary, or on a simple one. The image of an inner
 /// vertex is covered, and so are all points around it.
