@@ -411,6 +411,45 @@ def polygons_and_several_surfaces():
     assert "turned.obj: " in done.stderr and "(0-" in done.stderr, done.stderr
 
 
+def copies():
+    """Turned copies of a surface are cut alike and lie on each other, whatever the digits, the order of faces, and the
+    diagonals along which polygons are cut."""
+    def turned(p, k):
+        a, b = 0.7 * k, 1.1 * k
+        x, y, z = p
+        x, y = x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a)
+        y, z = y * math.cos(b) - z * math.sin(b), y * math.sin(b) + z * math.cos(b)
+        return [x + 13 * k, y - 9 * k, z + 3 * k]
+
+    outline = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)]
+    bracket = [[float(x), float(y), z] for z in (0.0, 0.9) for x, y in outline], \
+        [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11]] + [[i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i] for i in range(6)]
+    points, faces = torus(12, 8)
+    quads = points, [[a[0], a[1], a[2], b[2]] for a, b in zip(faces[::2], faces[1::2])]
+    count = 6
+    for shape in (bracket, quads):
+        for digits in (6, 17):
+            points, faces = [], []
+            for k in range(count):
+                first = len(points)
+                points += [[float(f"{c:.{digits}g}") for c in turned(p, k)] for p in shape[0]]
+                own = [[first + v for v in f[k % len(f):] + f[:k % len(f)]] for f in shape[1]]
+                faces += own[k:] + own[:k] if k % 2 else own
+            write("copies.obj", points, faces)
+            run("atlas", "copies.obj", "-o", "out.obj", "--stack", "similar", "--stats", "s.json")
+            s = stats("s.json")
+            assert s["charts"] % count == 0 and s["charts"] - s["stacked"] <= s["charts"] // count, \
+                (digits, s["charts"], s["stacked"])
+            assert all(cross(*(uv[f[k]] for k in (0, 1, 2))) > 0 for _, uv, _, texcoords in [read("out.obj")]
+                       for f in texcoords if len(f) == 4)
+    # What only looks like a copy is none: a bracket whose leg is a hundredth longer.
+    other = [[p[0], p[1] + 0.02 * (p[1] > 1.5), p[2]] for p in bracket[0]]
+    write("copies.obj", bracket[0] + [turned(p, 1) for p in other], bracket[1] + [[12 + v for v in f] for f in bracket[1]])
+    run("atlas", "copies.obj", "-o", "out.obj", "--stack", "similar", "--stats", "s.json")
+    s = stats("s.json")
+    assert s["stacked"] < s["charts"] // 2, (s["charts"], s["stacked"])
+
+
 def polygons_of_any_outline():
     """Letters: flat polygons that are far from convex, and one that is bent."""
     letters = [[(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (2.5, 2), (2.5, 3), (1, 3), (1, 4), (3, 4), (3, 5), (0, 5)],
@@ -580,8 +619,8 @@ def main():
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
     for case in (closed_surfaces, short_seams, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
-                 symmetric_charts, polygons_and_several_surfaces, polygons_of_any_outline, polygons_as_fans,
-                 wrong_usage, stops):
+                 symmetric_charts, polygons_and_several_surfaces, copies,
+                 polygons_of_any_outline, polygons_as_fans, wrong_usage, stops):
         begin = time.monotonic()
         case()
         print(f"{case.__name__}: {time.monotonic() - begin:.1f} s", flush=True)

@@ -161,8 +161,9 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     auto& stacks = made.stacks;
     if (of.params.stack)
     {
-        stacks.emplace(charts, params.groups);
+        stacks.emplace(charts, by_charts(charts, of.params.charts.together), params.groups);
         stacks->take_best(set.uv, set.energy);
+        stacks->leave_turned(set.uv);
         stacks->share(set.uv);
         report.stacked = charts.charts() - static_cast<idx>(stacks->leaders().size());
     }
@@ -192,7 +193,7 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     if (stacks)
     {
         stacks->share(made.uv);
-        made.bad = stacks->of_all(stacks->of_leaders(made.bad));
+        made.bad = stacks->bad_of_all(made.bad, made.uv);
     }
     report.seconds.pack += run.clock.lap();
     return made;
