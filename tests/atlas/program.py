@@ -450,6 +450,27 @@ def copies():
     assert s["stacked"] < s["charts"] // 2, (s["charts"], s["stacked"])
 
 
+def charts_larger_than_tiles():
+    """At a given density charts are cut so that they fit into a tile; a polygon that does not is told."""
+    cube = [[float(v >> k & 1) for k in range(3)] for v in range(8)], \
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    long = [[x / 2, y / 2, 0.1 * math.sin(x / 9)] for y in range(3) for x in range(81)], \
+        [[81 * y + x, 81 * y + x + 1, 81 * y + x + 82, 81 * y + x + 81] for y in range(2) for x in range(80)]
+    for (points, faces), texels in ((cube, 200), (long, 40)):
+        write("large.obj", points, faces)
+        for more in ([], ["--prefer", "packing"], ["--upright"]):
+            told = run("atlas", "large.obj", "-o", "out.obj", "--texels-per-unit", texels, "--resolution", 256, "--stats",
+                       "s.json", *more)
+            s = stats("s.json")
+            assert s["resolution"] == 256 and s["least_distance"] >= 2 * (1 - 1e-9)
+            assert "larger than a tile" in told.stderr, told.stderr
+            judge("out.obj", points, faces, samples=128, tiles=10)
+        assert s["charts"] <= 9, s["charts"]
+    write("large.obj", *cube)
+    refused = run("atlas", "large.obj", "-o", "x.obj", "--texels-per-unit", 300, "--resolution", 256, code=4).stderr
+    assert "polygon" in refused and "higher resolution" in refused, refused
+
+
 def polygons_of_any_outline():
     """Letters: flat polygons that are far from convex, and one that is bent."""
     letters = [[(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (2.5, 2), (2.5, 3), (1, 3), (1, 4), (3, 4), (3, 5), (0, 5)],
@@ -619,7 +640,7 @@ def main():
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
     for case in (closed_surfaces, short_seams, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
-                 symmetric_charts, polygons_and_several_surfaces, copies,
+                 symmetric_charts, polygons_and_several_surfaces, copies, charts_larger_than_tiles,
                  polygons_of_any_outline, polygons_as_fans, wrong_usage, stops):
         begin = time.monotonic()
         case()

@@ -6,13 +6,16 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <taut/impl/atlas/chart_start.hpp>
+#include <taut/impl/atlas/page_cuts.hpp>
 #include <taut/impl/atlas/short_charts.hpp>
 #include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/atlas/symmetry/symmetric_half.hpp>
+#include <taut/impl/core/short_number.hpp>
 
 namespace taut::impl
 {
@@ -163,11 +166,30 @@ inline void join_polygons(atlas_run& run, const atlas_surface& of, chart_set& se
     mend(run, of, set, unfit(set));
 }
 
+/// Cuts charts that are larger than a tile at the density that is asked for, but polygons.
+inline void fit_tiles(atlas_run& run, const atlas_surface& of, chart_set& set)
+{
+    constexpr int most_rounds = 8; // polygons that are cut become charts, which cut others further
+    if (!(of.params.packing.texels_per_unit > 0) || !run.report.reason.empty()) return;
+    idx cuts = 0;
+    for (int round = 0, before = -1; round < most_rounds && cuts != before; ++round)
+    {
+        before = cuts;
+        cuts += page_cuts(of, set).run();
+        if (cuts != before) join_polygons(run, of, set);
+    }
+    if (cuts > 0)
+        run.report.notes.push_back("charts larger than a tile at " + short_number(of.params.packing.texels_per_unit) +
+                                   " texels a unit were cut so that they fit, " + std::to_string(cuts) +
+                                   (cuts == 1 ? " time" : " times"));
+}
+
 /// Charts that are cut as the preference says.
 inline chart_set free_charts(atlas_run& run, const atlas_surface& of)
 {
     chart_set set = of.params.prefer == chart_preference::packing ? segmented_charts(run, of) : short_charts(run, of);
     join_polygons(run, of, set);
+    fit_tiles(run, of, set);
     if (of.params.stack && run.report.reason.empty()) copy_components(of, set);
     return set;
 }
