@@ -471,6 +471,22 @@ def charts_larger_than_tiles():
     assert "polygon" in refused and "higher resolution" in refused, refused
 
 
+def packing_is_no_worse():
+    """Charts that are to fill the square do so as well as those along short seams, also where each side of a body is
+    slim or star-shaped."""
+    n = 14
+    outline = [((1, 0.35)[k % 2] * math.cos(2 * math.pi * k / n), (1, 0.35)[k % 2] * math.sin(2 * math.pi * k / n))
+               for k in range(n)]
+    points = [[x, y, z] for z in (0.0, 1.0) for x, y in outline]
+    faces = [list(range(n))[::-1], list(range(n, 2 * n))] + [[k, (k + 1) % n, n + (k + 1) % n, n + k] for k in range(n)]
+    write("star.obj", points, faces)
+    use = {}
+    for aim in ("seams", "packing"):
+        run("atlas", "star.obj", "-o", "out.obj", "--prefer", aim, "--stats", "s.json")
+        use[aim] = stats("s.json")["utilization"]
+    assert stats("s.json")["distortion"] <= 4.045 and use["packing"] > use["seams"] - 0.03, use
+
+
 def polygons_of_any_outline():
     """Letters: flat polygons that are far from convex, and one that is bent."""
     letters = [[(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (2.5, 2), (2.5, 3), (1, 3), (1, 4), (3, 4), (3, 5), (0, 5)],
@@ -640,7 +656,7 @@ def main():
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
     for case in (closed_surfaces, short_seams, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
-                 symmetric_charts, polygons_and_several_surfaces, copies, charts_larger_than_tiles,
+                 symmetric_charts, polygons_and_several_surfaces, copies, charts_larger_than_tiles, packing_is_no_worse,
                  polygons_of_any_outline, polygons_as_fans, wrong_usage, stops):
         begin = time.monotonic()
         case()
