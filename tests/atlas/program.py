@@ -414,6 +414,82 @@ def polygons_and_several_surfaces():
     assert "turned.obj: " in done.stderr and "(0-" in done.stderr, done.stderr
 
 
+def copies():
+    """Turned copies of a surface are cut alike and lie on each other, whatever the digits, the order of faces, and the
+    diagonals along which polygons are cut."""
+    def turned(p, k):
+        a, b = 0.7 * k, 1.1 * k
+        x, y, z = p
+        x, y = x * math.cos(a) - y * math.sin(a), x * math.sin(a) + y * math.cos(a)
+        y, z = y * math.cos(b) - z * math.sin(b), y * math.sin(b) + z * math.cos(b)
+        return [x + 13 * k, y - 9 * k, z + 3 * k]
+
+    outline = [(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (0, 2)]
+    bracket = [[float(x), float(y), z] for z in (0.0, 0.9) for x, y in outline], \
+        [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11]] + [[i, (i + 1) % 6, 6 + (i + 1) % 6, 6 + i] for i in range(6)]
+    points, faces = torus(12, 8)
+    quads = points, [[a[0], a[1], a[2], b[2]] for a, b in zip(faces[::2], faces[1::2])]
+    count = 6
+    for shape in (bracket, quads):
+        for digits in (6, 17):
+            points, faces = [], []
+            for k in range(count):
+                first = len(points)
+                points += [[float(f"{c:.{digits}g}") for c in turned(p, k)] for p in shape[0]]
+                own = [[first + v for v in f[k % len(f):] + f[:k % len(f)]] for f in shape[1]]
+                faces += own[k:] + own[:k] if k % 2 else own
+            write("copies.obj", points, faces)
+            run("atlas", "copies.obj", "-o", "out.obj", "--stack", "similar", "--stats", "s.json")
+            s = stats("s.json")
+            assert s["charts"] % count == 0 and s["charts"] - s["stacked"] <= s["charts"] // count, \
+                (digits, s["charts"], s["stacked"])
+            assert all(cross(*(uv[f[k]] for k in (0, 1, 2))) > 0 for _, uv, _, texcoords in [read("out.obj")]
+                       for f in texcoords if len(f) == 4)
+    # What only looks like a copy is none: a bracket whose leg is a hundredth longer.
+    other = [[p[0], p[1] + 0.02 * (p[1] > 1.5), p[2]] for p in bracket[0]]
+    write("copies.obj", bracket[0] + [turned(p, 1) for p in other], bracket[1] + [[12 + v for v in f] for f in bracket[1]])
+    run("atlas", "copies.obj", "-o", "out.obj", "--stack", "similar", "--stats", "s.json")
+    s = stats("s.json")
+    assert s["stacked"] < s["charts"] // 2, (s["charts"], s["stacked"])
+
+
+def charts_larger_than_tiles():
+    """At a given density charts are cut so that they fit into a tile; a polygon that does not is told."""
+    cube = [[float(v >> k & 1) for k in range(3)] for v in range(8)], \
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+    long = [[x / 2, y / 2, 0.1 * math.sin(x / 9)] for y in range(3) for x in range(81)], \
+        [[81 * y + x, 81 * y + x + 1, 81 * y + x + 82, 81 * y + x + 81] for y in range(2) for x in range(80)]
+    for (points, faces), texels in ((cube, 200), (long, 40)):
+        write("large.obj", points, faces)
+        for more in ([], ["--prefer", "packing"], ["--upright"]):
+            told = run("atlas", "large.obj", "-o", "out.obj", "--texels-per-unit", texels, "--resolution", 256, "--stats",
+                       "s.json", *more)
+            s = stats("s.json")
+            assert s["resolution"] == 256 and s["least_distance"] >= 2 * (1 - 1e-9)
+            assert "larger than a tile" in told.stderr, told.stderr
+            judge("out.obj", points, faces, samples=128, tiles=10)
+        assert s["charts"] <= 9, s["charts"]
+    write("large.obj", *cube)
+    refused = run("atlas", "large.obj", "-o", "x.obj", "--texels-per-unit", 300, "--resolution", 256, code=4).stderr
+    assert "polygon" in refused and "higher resolution" in refused, refused
+
+
+def packing_is_no_worse():
+    """Charts that are to fill the square do so as well as those along short seams, also where each side of a body is
+    slim or star-shaped."""
+    n = 14
+    outline = [((1, 0.35)[k % 2] * math.cos(2 * math.pi * k / n), (1, 0.35)[k % 2] * math.sin(2 * math.pi * k / n))
+               for k in range(n)]
+    points = [[x, y, z] for z in (0.0, 1.0) for x, y in outline]
+    faces = [list(range(n))[::-1], list(range(n, 2 * n))] + [[k, (k + 1) % n, n + (k + 1) % n, n + k] for k in range(n)]
+    write("star.obj", points, faces)
+    use = {}
+    for aim in ("seams", "packing"):
+        run("atlas", "star.obj", "-o", "out.obj", "--prefer", aim, "--stats", "s.json")
+        use[aim] = stats("s.json")["utilization"]
+    assert stats("s.json")["distortion"] <= 4.045 and use["packing"] > use["seams"] - 0.03, use
+
+
 def polygons_of_any_outline():
     """Letters: flat polygons that are far from convex, and one that is bent."""
     letters = [[(0, 0), (3, 0), (3, 1), (1, 1), (1, 2), (2.5, 2), (2.5, 3), (1, 3), (1, 4), (3, 4), (3, 5), (0, 5)],
@@ -584,8 +660,8 @@ def main():
     FOLDER.mkdir(parents=True)
     os.chdir(FOLDER)
     for case in (closed_surfaces, short_seams, parts_holes_and_padding, repairs, kept_charts_and_seams, pinned_charts, sizes,
-                 symmetric_charts, polygons_and_several_surfaces, polygons_of_any_outline, polygons_as_fans,
-                 wrong_usage, stops):
+                 symmetric_charts, polygons_and_several_surfaces, copies, charts_larger_than_tiles, packing_is_no_worse,
+                 polygons_of_any_outline, polygons_as_fans, wrong_usage, stops):
         begin = time.monotonic()
         case()
         print(f"{case.__name__}: {time.monotonic() - begin:.1f} s", flush=True)

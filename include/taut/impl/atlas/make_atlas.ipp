@@ -175,6 +175,7 @@ inline atlas atlas_in_range(queue& q, const mesh<triangle>& m, const atlas_param
     run.report.seconds.setup = run.clock.lap();
     chart_set set = make_charts(run, of);
     fill_square(run, of, set);
+    fill_more(run, of, set);
     placed_charts placed = settled(run, of, set);
     measure_seams(run.report, of, set.seam);
     if (of.mirror)

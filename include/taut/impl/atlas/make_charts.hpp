@@ -6,13 +6,16 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <taut/impl/atlas/chart_start.hpp>
+#include <taut/impl/atlas/page_cuts.hpp>
 #include <taut/impl/atlas/short_charts.hpp>
 #include <taut/impl/atlas/stacked_charts.hpp>
 #include <taut/impl/atlas/symmetry/symmetric_half.hpp>
+#include <taut/impl/core/short_number.hpp>
 
 namespace taut::impl
 {
@@ -37,35 +40,91 @@ inline chart_set segmented_charts(atlas_run& run, const atlas_surface& of)
     return set;
 }
 
+/// Flags of the sides of a surface, or none, for the sides of its charts.
+inline std::vector<char> by_charts(const chart_mesh& charts, std::span<const char> sides)
+{
+    std::vector<char> own;
+    if (!sides.empty())
+        for (const idx c : charts.cell_origins)
+            for (std::size_t k = 0; k < 3; ++k) own.push_back(sides[3 * static_cast<std::size_t>(c) + k]);
+    return own;
+}
+
+/// Maps of polygons, for those that are cut along other diagonals.
+class polygon_maps
+{
+public:
+    /// Refers to all. f: facets of m; together: its diagonals, or empty
+    polygon_maps(const mesh<triangle>& m, const facet_table& f, std::span<const char> together)
+        : mesh_(m), polygon_(polygons_of(f, together)), corners_(m.cells().size())
+    {
+    }
+
+    /// A corner of the polygon of this side, where the side begins, is that of another one.
+    void take(std::size_t side, std::size_t from) { corners_[polygon(side)].push_back({start(side), from}); }
+
+    /// The corner of which this one is a copy, or itself.
+    std::size_t origin(std::size_t corner) const
+    {
+        const idx v = mesh_.cells()[corner / 3][corner % 3];
+        for (const auto& [vertex, from] : corners_[polygon(corner)])
+            if (vertex == v) return 3 * (from / 3) + (from + 1) % 3;
+        return corner;
+    }
+
+private:
+    std::size_t polygon(std::size_t side) const { return static_cast<std::size_t>(polygon_[side / 3]); }
+    idx start(std::size_t side) const { return mesh_.cells()[side / 3][(side + 1) % 3]; }
+
+    const mesh<triangle>& mesh_;
+    std::vector<idx> polygon_;                                      // one per triangle
+    std::vector<std::vector<std::pair<idx, std::size_t>>> corners_; // of polygons: vertices, and the sides of others
+};
+
 /// Cuts components that are copies of each other in space as the least distorted of them is cut, with its maps.
 inline void copy_components(const atlas_surface& of, chart_set& set)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    const auto& together = of.params.charts.together;
     const chart_mesh whole = cut_charts(of.surface, of.facets, std::vector<char>(set.seam.size(), 0));
-    const stacked_charts copies(whole, {});
+    const stacked_charts copies(whole, by_charts(whole, together), {});
     if (copies.leaders().size() == copies.leader().size()) return;
     const auto own = [&](idx side) { return 3 * u(whole.cell_origins[u(side / 3)]) + u(side % 3); };
-    auto flat = laid(set);
+    const auto before = laid(set);
     std::vector<double> energy; // of each component, summed over its triangles
     for (idx k = 0; k < whole.charts(); ++k)
     {
         energy.push_back(0);
         for (auto c = u(whole.first_cell[u(k)]); c < u(whole.first_cell[u(k) + 1]); ++c)
-            energy.back() += flat.energy[u(whole.cell_origins[c])];
+            energy.back() += before.energy[u(whole.cell_origins[c])];
     }
     const auto best = copies.best(energy);
+    const auto is_outer = [&](idx side) { return together.empty() || !together[own(side)]; };
     std::vector<idx> model(set.seam.size()); // of each side of a first copy, that of the best one
     for (idx k = 0; k < whole.charts(); ++k)
         if (best[u(copies.leader()[u(k)])] == k)
             for (idx s = 3 * whole.first_cell[u(k)]; s < 3 * whole.first_cell[u(k) + 1]; ++s)
-                model[u(copies.sides()[u(s)])] = s;
-    for (idx s = 0; s < static_cast<idx>(set.seam.size()); ++s)
+                if (is_outer(s)) model[u(copies.sides()[u(s)])] = s;
+    auto flat = before;
+    polygon_maps maps(of.surface, of.facets, together);
+    for (idx k = 0; k < whole.charts(); ++k)
     {
-        const idx first = model[u(copies.sides()[u(s)])];
-        if (first == s) continue;
-        flat.seam[own(s)] = set.seam[own(first)] != 0 || of.is_given(own(s));
-        flat.uv[own(s)] = flat.uv[own(first)]; // a side and a corner have one number
-        flat.energy[own(s) / 3] = flat.energy[own(first) / 3];
+        if (best[u(copies.leader()[u(k)])] == k) continue;
+        const idx begin = 3 * whole.first_cell[u(k)], end = 3 * whole.first_cell[u(k) + 1];
+        for (idx s = begin; s < end; ++s)
+            if (is_outer(s)) maps.take(own(s), own(model[u(copies.sides()[u(s)])]));
+        const auto at = [&](idx s) { return before.uv[maps.origin(own(s))]; };
+        bool turned = false; // on other diagonals
+        for (idx s = begin; s < end && !copies.same_triangles(k); s += 3)
+            turned = turned || orient2d(at(s), at(s + 1), at(s + 2)) <= 0;
+        if (turned) continue;
+        for (idx s = begin; s < end; ++s)
+        {
+            const idx from = is_outer(s) ? model[u(copies.sides()[u(s)])] : -1;
+            flat.seam[own(s)] = (from >= 0 && before.seam[own(from)] != 0) || of.is_given(own(s));
+            flat.uv[own(s)] = at(s); // a side and a corner have one number
+            flat.energy[own(s) / 3] = before.energy[maps.origin(own(s)) / 3];
+        }
     }
     set = cut(of, std::move(flat));
 }
@@ -107,12 +166,31 @@ inline void join_polygons(atlas_run& run, const atlas_surface& of, chart_set& se
     mend(run, of, set, unfit(set));
 }
 
+/// Cuts charts that are larger than a tile at the density that is asked for, but polygons.
+inline void fit_tiles(atlas_run& run, const atlas_surface& of, chart_set& set)
+{
+    constexpr int most_rounds = 8; // polygons that are cut become charts, which cut others further
+    if (!(of.params.packing.texels_per_unit > 0) || !run.report.reason.empty()) return;
+    idx cuts = 0;
+    for (int round = 0, before = -1; round < most_rounds && cuts != before; ++round)
+    {
+        before = cuts;
+        cuts += page_cuts(of, set).run();
+        if (cuts != before) join_polygons(run, of, set);
+    }
+    if (cuts > 0)
+        run.report.notes.push_back("charts larger than a tile at " + short_number(of.params.packing.texels_per_unit) +
+                                   " texels a unit were cut so that they fit, " + std::to_string(cuts) +
+                                   (cuts == 1 ? " time" : " times"));
+}
+
 /// Charts that are cut as the preference says.
 inline chart_set free_charts(atlas_run& run, const atlas_surface& of)
 {
     chart_set set = of.params.prefer == chart_preference::packing ? segmented_charts(run, of) : short_charts(run, of);
-    if (of.params.stack && run.report.reason.empty()) copy_components(of, set);
     join_polygons(run, of, set);
+    fit_tiles(run, of, set);
+    if (of.params.stack && run.report.reason.empty()) copy_components(of, set);
     return set;
 }
 

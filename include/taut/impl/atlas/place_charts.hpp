@@ -136,6 +136,54 @@ inline void fill_square(atlas_run& run, const atlas_surface& of, chart_set& set)
     run.report.seconds.pack += run.clock.lap();
 }
 
+/// How much of a square as large as all tiles charts use, about, at whatever scale; 0: they do not fit.
+inline double use_of_square(atlas_run& run, const atlas_surface& of, const chart_set& set)
+{
+    const pack_params& asked = of.params.packing;
+    const double side = std::max(asked.resolution, asked.max_resolution) * std::sqrt(asked.tiles);
+    const pack_params packing{
+        .resolution = static_cast<int>(std::min(side, 65536.0)), .padding = asked.padding, .rotate = asked.rotate};
+    const auto outlines =
+        find_outlines(set.uv, set.charts.surface.cells(), set.charts.first_cell, set.charts.first_vertex);
+    try
+    {
+        return pack_outlined(set.uv, outlines, packing, {run.limits("pack").time_limit, {}}, packing_effort::estimate)
+            .utilization;
+    }
+    catch (const packing_error&)
+    {
+        return 0;
+    }
+}
+
+/// Replaces charts that are to fill squares and do not by few along short seams, of the same bounds, if these do more.
+inline void fill_more(atlas_run& run, const atlas_surface& of, chart_set& set)
+{
+    constexpr double gain = 0.01; // of the use
+    constexpr idx small = 50'000; // triangles: short seams of more take long
+    atlas_report& report = run.report;
+    const auto& asked = of.params;
+    if (asked.prefer != chart_preference::packing || asked.stack || of.surface.cell_count() > small ||
+        !report.reason.empty() || !report.complete)
+        return;
+    const double use = use_of_square(run, of, set);
+    if (!(use < filled_square::enough)) return;
+    atlas_params params = asked;
+    params.prefer = chart_preference::seams;
+    atlas_surface other{of.surface, params, of.origins, of.facets};
+    auto notes = std::exchange(report.notes, {});
+    chart_set few = make_charts(run, other);
+    fill_square(run, other, few);
+    const bool holds = mean_energy(few) <= std::max(asked.charts.mean_distortion, mean_energy(set));
+    const bool more = report.reason.empty() && report.complete && holds && use_of_square(run, other, few) > use + gain;
+    report.reason.clear();
+    report.reason_triangles.clear();
+    if (more)
+        set = std::move(few);
+    else
+        report.notes = std::move(notes);
+}
+
 /// Packs charts into the tiles, rounded as in the file.
 /// grown: how much larger the chart of each triangle of the surface is laid; empty if none is
 inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& set, const std::vector<double>& grown)
@@ -161,8 +209,9 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     auto& stacks = made.stacks;
     if (of.params.stack)
     {
-        stacks.emplace(charts, params.groups);
+        stacks.emplace(charts, by_charts(charts, of.params.charts.together), params.groups);
         stacks->take_best(set.uv, set.energy);
+        stacks->leave_turned(set.uv);
         stacks->share(set.uv);
         report.stacked = charts.charts() - static_cast<idx>(stacks->leaders().size());
     }
@@ -192,7 +241,7 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     if (stacks)
     {
         stacks->share(made.uv);
-        made.bad = stacks->of_all(stacks->of_leaders(made.bad));
+        made.bad = stacks->bad_of_all(made.bad, made.uv);
     }
     report.seconds.pack += run.clock.lap();
     return made;

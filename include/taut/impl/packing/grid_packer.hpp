@@ -175,8 +175,8 @@ private:
                 ", do not fit into " + std::to_string(params_.tiles) +
                 (params_.tiles == 1 ? " tile of " : " tiles of ") + std::to_string(resolution_) + " x " +
                 short_number(resolution_ * params_.aspect) +
-                " texels; ask for fewer texels, or for more or larger tiles; a chart larger than a tile "
-                "needs a higher resolution, or shorter charts (a tighter bound of distortion)");
+                " texels; ask for fewer texels, or for more or larger tiles; a triangle, a polygon or a kept "
+                "chart larger than a tile needs fewer texels or a higher resolution");
     }
 
     /// "the largest is 300 x 20", in texels.

@@ -13,10 +13,10 @@
 
 #include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/symmetry.hpp>
-#include <taut/impl/atlas/symmetry/point_grid.hpp>
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/core/parallel.hpp>
 #include <taut/impl/mesh/describe.hpp>
+#include <taut/impl/mesh/point_grid.hpp>
 
 namespace taut::impl
 {
