@@ -3,10 +3,18 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
 import taut
+
+
+def test_modules_are_there_without_an_import_of_their_own():
+    words = "import sys, taut; assert 'taut.grids' not in sys.modules; print(taut.compat.xatlas.parametrize, taut.grids)"
+    subprocess.run([sys.executable, "-c", words], check=True)
 
 
 def test_meshes_of_trimesh(torus, bowl):

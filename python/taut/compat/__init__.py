@@ -1,2 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Interfaces of other packages, on taut."""
+
+from . import xatlas
+
+__all__ = ["xatlas"]
