@@ -122,3 +122,15 @@ TEST_CASE("kept apart: a small chart that lies on itself is mapped beside itself
     CHECK(turned_triangle(set.charts, 0, set.uv) < 0);
     CHECK(set.energy[0] < 4.1);
 }
+
+TEST_CASE("kept apart: what does not lie on itself stays flat")
+{
+    queue q(test::shared_context());
+    chart_set set = arc(6.0, 0);
+    const run_limits unlimited;
+    atlas_run run{q, unlimited};
+    std::vector<char> bad{1};
+    keep_apart(run, set, bad);
+    CHECK(bad[0] == 0);
+    CHECK(set.energy[0] == doctest::Approx(4).epsilon(1e-7));
+}
