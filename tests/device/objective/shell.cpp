@@ -50,7 +50,8 @@ struct shell_fixture
         std::mt19937 generator(5);
         std::normal_distribution<double> normal(0.0, by * shell.mean_edge());
         auto x = rest;
-        for (vec3& p : x) p += vec3(normal(generator), normal(generator), normal(generator));
+        for (vec3& p : x)
+            for (int c = 2; c >= 0; --c) p[c] += normal(generator); // arguments have no order
         return x;
     }
 
