@@ -91,14 +91,15 @@ inline void copy_components(const atlas_surface& of, chart_set& set)
     if (copies.leaders().size() == copies.leader().size()) return;
     const auto own = [&](idx side) { return 3 * u(whole.cell_origins[u(side / 3)]) + u(side % 3); };
     const auto before = laid(set);
-    std::vector<double> energy; // of each component, summed over its triangles
+    std::vector<double> energy; // of each component, by area
     for (idx k = 0; k < whole.charts(); ++k)
     {
         energy.push_back(0);
         for (auto c = u(whole.first_cell[u(k)]); c < u(whole.first_cell[u(k) + 1]); ++c)
-            energy.back() += before.energy[u(whole.cell_origins[c])];
+            energy.back() +=
+                before.energy[u(whole.cell_origins[c])] * triangle_area(whole.surface, static_cast<idx>(c));
     }
-    const auto best = copies.best(energy);
+    const auto best = copies.best(energy, false);
     const auto is_outer = [&](idx side) { return together.empty() || !together[own(side)]; };
     std::vector<idx> model(set.seam.size()); // of each side of a first copy, that of the best one
     for (idx k = 0; k < whole.charts(); ++k)
@@ -115,7 +116,7 @@ inline void copy_components(const atlas_surface& of, chart_set& set)
             if (is_outer(s)) maps.take(own(s), own(model[u(copies.sides()[u(s)])]));
         const auto at = [&](idx s) { return before.uv[maps.origin(own(s))]; };
         bool turned = false; // on other diagonals
-        for (idx s = begin; s < end && !copies.same_triangles(k); s += 3)
+        for (idx s = begin; s < end && !together.empty(); s += 3)
             turned = turned || orient2d(at(s), at(s + 1), at(s + 2)) <= 0;
         if (turned) continue;
         for (idx s = begin; s < end; ++s)

@@ -319,13 +319,15 @@ public:
         find_leaders();
     }
 
-    /// For each first chart, the least distorted of its copies with its triangles or itself; others name themselves.
-    std::vector<idx> best(std::span<const double> distortion) const
+    /// For each first chart, the least distorted of its copies or itself; others name themselves. same_triangles: only
+    /// of those whose polygons are cut along the same diagonals
+    std::vector<idx> best(std::span<const double> distortion, bool same_triangles) const
     {
         std::vector<idx> all(leader_.size());
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<idx>(k);
         for (std::size_t k = 0; k < all.size(); ++k)
-            if (idx& one = all[u(leader_[k])]; same_triangles_[k] && distortion[k] < distortion[u(one)])
+            if (idx& one = all[u(leader_[k])];
+                (same_triangles_[k] || !same_triangles) && distortion[k] < distortion[u(one)])
                 one = static_cast<idx>(k);
         return all;
     }
@@ -334,7 +336,7 @@ public:
     template <class T>
     void take_best(std::vector<T>& of_vertices, std::span<const double> distortion) const
     {
-        const auto from = best(distortion);
+        const auto from = best(distortion, true);
         for (const idx leader : leaders_)
             if (const auto k = u(from[u(leader)]); k != u(leader))
                 for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
