@@ -211,7 +211,7 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     {
         stacks.emplace(charts, by_charts(charts, of.params.charts.together), params.groups);
         stacks->take_best(set.uv, set.energy);
-        stacks->leave_turned(set.uv);
+        stacks->leave_unlike(set.uv, of.params.charts.max_distortion);
         stacks->share(set.uv);
         report.stacked = charts.charts() - static_cast<idx>(stacks->leaders().size());
     }

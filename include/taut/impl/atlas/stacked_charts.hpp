@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/mesh/facets.hpp>
@@ -304,14 +305,20 @@ public:
         return all;
     }
 
-    /// Leaves alone the copies on which other diagonals are flipped in a map of all charts, one value per vertex.
-    void leave_turned(std::span<const vec2> uv)
+    /// Leaves alone the copies on which other diagonals are flipped in a map of all charts, one value per vertex, or
+    /// distorted by more than `most` and than they are.
+    void leave_unlike(std::span<const vec2> uv, double most)
     {
+        const ideal_elements<triangle> ideal(charts_->surface);
         std::vector<vec2> shared(uv.begin(), uv.end());
         share(shared);
         for (std::size_t k = 0; k < leader_.size(); ++k)
         {
-            if (same_triangles_[k] || turned_triangle(*charts_, k, shared) < 0) continue;
+            const auto energy = [&](std::span<const vec2> map)
+            { return area_and_energy(*charts_, k, map, ideal).second; };
+            if (same_triangles_[k] ||
+                (turned_triangle(*charts_, k, shared) < 0 && energy(shared) <= std::max(most, energy(uv))))
+                continue;
             leader_[k] = static_cast<idx>(k);
             for (idx v = charts_->first_vertex[k]; v < charts_->first_vertex[k + 1]; ++v) twin_[u(v)] = v;
             for (idx s = 3 * charts_->first_cell[k]; s < 3 * charts_->first_cell[k + 1]; ++s) side_[u(s)] = s;
