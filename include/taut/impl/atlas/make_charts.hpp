@@ -110,7 +110,7 @@ inline void leave_distorted(const atlas_surface& of, const chart_mesh& whole, co
 }
 
 /// Cuts components that are copies of each other in space as the least distorted of them is cut, with its maps.
-inline void copy_components(const atlas_surface& of, chart_set& set)
+inline void copy_components(atlas_run& run, const atlas_surface& of, chart_set& set)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const auto& together = of.params.charts.together;
@@ -157,8 +157,15 @@ inline void copy_components(const atlas_surface& of, chart_set& set)
     };
     for (idx k = 0; k < whole.charts(); ++k) copy(k);
     if (!together.empty()) leave_distorted(of, whole, before, flat);
+    const double bound = std::max(of.params.charts.mean_distortion, mean_energy(set));
     set = cut(of, std::move(flat));
-    if (!together.empty()) measure(set);
+    if (together.empty()) return;
+    measure(set);
+    if (const double mean = mean_energy(set); mean > bound)
+        run.report.notes.push_back(
+            "the mean energy is " + short_number(mean) +
+            ", above the bound, as polygons of copies are cut along other diagonals; triangulate "
+            "the file, or give a tighter bound");
 }
 
 /// Makes polygons that are divided by seams charts of their own.
@@ -222,7 +229,7 @@ inline chart_set free_charts(atlas_run& run, const atlas_surface& of)
     chart_set set = of.params.prefer == chart_preference::packing ? segmented_charts(run, of) : short_charts(run, of);
     join_polygons(run, of, set);
     fit_tiles(run, of, set);
-    if (of.params.stack && run.report.reason.empty()) copy_components(of, set);
+    if (of.params.stack && run.report.reason.empty()) copy_components(run, of, set);
     return set;
 }
 
