@@ -81,8 +81,36 @@ private:
     std::vector<std::vector<std::pair<idx, std::size_t>>> corners_; // of polygons: vertices, and the sides of others
 };
 
+/// Leaves components as they were, whose charts are distorted beyond the bound as copies: other diagonals of polygons,
+/// another distortion. whole: components; flat: the copies, not measured
+inline void leave_distorted(const atlas_surface& of, const chart_mesh& whole, const laid_surface& before,
+                            laid_surface& flat)
+{
+    const auto u = [](idx i) { return static_cast<std::size_t>(i); };
+    chart_set made = cut(of, flat);
+    measure(made);
+    const auto after = by_triangle(made.charts, made.energy);
+    const double most = of.params.charts.max_distortion;
+    for (std::size_t k = 0; k < u(whole.charts()); ++k)
+    {
+        const auto first = whole.cell_origins.begin() + whole.first_cell[k],
+                   last = whole.cell_origins.begin() + whole.first_cell[k + 1];
+        if (std::none_of(first, last, [&](idx c) { return after[u(c)] > std::max(most, before.energy[u(c)]); }))
+            continue;
+        for (auto c = first; c != last; ++c)
+        {
+            flat.energy[u(*c)] = before.energy[u(*c)];
+            for (std::size_t s = 3 * u(*c); s < 3 * u(*c) + 3; ++s)
+            {
+                flat.seam[s] = before.seam[s];
+                flat.uv[s] = before.uv[s];
+            }
+        }
+    }
+}
+
 /// Cuts components that are copies of each other in space as the least distorted of them is cut, with its maps.
-inline void copy_components(const atlas_surface& of, chart_set& set)
+inline void copy_components(atlas_run& run, const atlas_surface& of, chart_set& set)
 {
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };
     const auto& together = of.params.charts.together;
@@ -91,14 +119,15 @@ inline void copy_components(const atlas_surface& of, chart_set& set)
     if (copies.leaders().size() == copies.leader().size()) return;
     const auto own = [&](idx side) { return 3 * u(whole.cell_origins[u(side / 3)]) + u(side % 3); };
     const auto before = laid(set);
-    std::vector<double> energy; // of each component, summed over its triangles
+    std::vector<double> energy; // of each component, by area
     for (idx k = 0; k < whole.charts(); ++k)
     {
         energy.push_back(0);
         for (auto c = u(whole.first_cell[u(k)]); c < u(whole.first_cell[u(k) + 1]); ++c)
-            energy.back() += before.energy[u(whole.cell_origins[c])];
+            energy.back() +=
+                before.energy[u(whole.cell_origins[c])] * triangle_area(whole.surface, static_cast<idx>(c));
     }
-    const auto best = copies.best(energy);
+    const auto best = copies.best(energy, false);
     const auto is_outer = [&](idx side) { return together.empty() || !together[own(side)]; };
     std::vector<idx> model(set.seam.size()); // of each side of a first copy, that of the best one
     for (idx k = 0; k < whole.charts(); ++k)
@@ -107,17 +136,17 @@ inline void copy_components(const atlas_surface& of, chart_set& set)
                 if (is_outer(s)) model[u(copies.sides()[u(s)])] = s;
     auto flat = before;
     polygon_maps maps(of.surface, of.facets, together);
-    for (idx k = 0; k < whole.charts(); ++k)
+    const auto copy = [&](idx k)
     {
-        if (best[u(copies.leader()[u(k)])] == k) continue;
+        if (best[u(copies.leader()[u(k)])] == k) return;
         const idx begin = 3 * whole.first_cell[u(k)], end = 3 * whole.first_cell[u(k) + 1];
         for (idx s = begin; s < end; ++s)
             if (is_outer(s)) maps.take(own(s), own(model[u(copies.sides()[u(s)])]));
         const auto at = [&](idx s) { return before.uv[maps.origin(own(s))]; };
         bool turned = false; // on other diagonals
-        for (idx s = begin; s < end && !copies.same_triangles(k); s += 3)
+        for (idx s = begin; s < end && !together.empty(); s += 3)
             turned = turned || orient2d(at(s), at(s + 1), at(s + 2)) <= 0;
-        if (turned) continue;
+        if (turned) return;
         for (idx s = begin; s < end; ++s)
         {
             const idx from = is_outer(s) ? model[u(copies.sides()[u(s)])] : -1;
@@ -125,8 +154,18 @@ inline void copy_components(const atlas_surface& of, chart_set& set)
             flat.uv[own(s)] = at(s); // a side and a corner have one number
             flat.energy[own(s) / 3] = before.energy[maps.origin(own(s)) / 3];
         }
-    }
+    };
+    for (idx k = 0; k < whole.charts(); ++k) copy(k);
+    if (!together.empty()) leave_distorted(of, whole, before, flat);
+    const double bound = std::max(of.params.charts.mean_distortion, mean_energy(set));
     set = cut(of, std::move(flat));
+    if (together.empty()) return;
+    measure(set);
+    if (const double mean = mean_energy(set); mean > bound)
+        run.report.notes.push_back(
+            "the mean energy is " + short_number(mean) +
+            ", above the bound, as polygons of copies are cut along other diagonals; triangulate "
+            "the file, or give a tighter bound");
 }
 
 /// Makes polygons that are divided by seams charts of their own.
@@ -190,7 +229,7 @@ inline chart_set free_charts(atlas_run& run, const atlas_surface& of)
     chart_set set = of.params.prefer == chart_preference::packing ? segmented_charts(run, of) : short_charts(run, of);
     join_polygons(run, of, set);
     fit_tiles(run, of, set);
-    if (of.params.stack && run.report.reason.empty()) copy_components(of, set);
+    if (of.params.stack && run.report.reason.empty()) copy_components(run, of, set);
     return set;
 }
 

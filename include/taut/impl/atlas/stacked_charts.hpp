@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
 #include <taut/impl/mesh/facets.hpp>
@@ -304,14 +305,20 @@ public:
         return all;
     }
 
-    /// Leaves alone the copies on which other diagonals are flipped in a map of all charts, one value per vertex.
-    void leave_turned(std::span<const vec2> uv)
+    /// Leaves alone the copies on which other diagonals are flipped in a map of all charts, one value per vertex, or
+    /// distorted by more than `most` and than they are.
+    void leave_unlike(std::span<const vec2> uv, double most)
     {
+        const ideal_elements<triangle> ideal(charts_->surface);
         std::vector<vec2> shared(uv.begin(), uv.end());
         share(shared);
         for (std::size_t k = 0; k < leader_.size(); ++k)
         {
-            if (same_triangles_[k] || turned_triangle(*charts_, k, shared) < 0) continue;
+            const auto energy = [&](std::span<const vec2> map)
+            { return area_and_energy(*charts_, k, map, ideal).second; };
+            if (same_triangles_[k] ||
+                (turned_triangle(*charts_, k, shared) < 0 && energy(shared) <= std::max(most, energy(uv))))
+                continue;
             leader_[k] = static_cast<idx>(k);
             for (idx v = charts_->first_vertex[k]; v < charts_->first_vertex[k + 1]; ++v) twin_[u(v)] = v;
             for (idx s = 3 * charts_->first_cell[k]; s < 3 * charts_->first_cell[k + 1]; ++s) side_[u(s)] = s;
@@ -319,13 +326,15 @@ public:
         find_leaders();
     }
 
-    /// For each first chart, the least distorted of its copies with its triangles or itself; others name themselves.
-    std::vector<idx> best(std::span<const double> distortion) const
+    /// For each first chart, the least distorted of its copies or itself; others name themselves. same_triangles: only
+    /// of those whose polygons are cut along the same diagonals
+    std::vector<idx> best(std::span<const double> distortion, bool same_triangles) const
     {
         std::vector<idx> all(leader_.size());
         for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<idx>(k);
         for (std::size_t k = 0; k < all.size(); ++k)
-            if (idx& one = all[u(leader_[k])]; same_triangles_[k] && distortion[k] < distortion[u(one)])
+            if (idx& one = all[u(leader_[k])];
+                (same_triangles_[k] || !same_triangles) && distortion[k] < distortion[u(one)])
                 one = static_cast<idx>(k);
         return all;
     }
@@ -334,7 +343,7 @@ public:
     template <class T>
     void take_best(std::vector<T>& of_vertices, std::span<const double> distortion) const
     {
-        const auto from = best(distortion);
+        const auto from = best(distortion, true);
         for (const idx leader : leaders_)
             if (const auto k = u(from[u(leader)]); k != u(leader))
                 for (auto v = u(charts_->first_vertex[k]); v < u(charts_->first_vertex[k + 1]); ++v)
