@@ -234,7 +234,11 @@ private:
                                                                              : chart_outcome::stuck;
             if (map) work_[k].uv = std::move(map.uv);
         }
-        catch (const mesh_error& e)
+        catch (const device_error&)
+        {
+            throw;
+        }
+        catch (const error& e)
         {
             report.outcome = chart_outcome::no_map;
             report.reason = e.what();
