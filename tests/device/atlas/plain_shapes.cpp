@@ -10,6 +10,7 @@
 
 #include <support/closed_meshes.hpp>
 #include <support/shared_context.hpp>
+#include <support/strips.hpp>
 #include <taut/impl/atlas/make_atlas.hpp>
 
 using namespace taut;
@@ -166,6 +167,31 @@ TEST_CASE("make_atlas: cones, cylinders, stairs and figures of boxes keep the bo
         check_bound(q, figure(), bound, 12);
         check_bound(q, gear(8), bound, 12);
     }
+}
+
+TEST_CASE("make_atlas: what unrolls is one chart without seams or distortion, with holes or as thin as a thread")
+{
+    queue q(test::shared_context());
+    const auto plane = [](double x, double y) { return vec3(x, y, 0.0); };
+    const auto coil = [](double x, double y) { return vec3(std::cos(20 * x), std::sin(20 * x), 2 * x + 1e-3 * y); };
+    const auto needles = [](double x, double y) { return vec3(1e-4 * x, y, 0.1 * y * y); };
+    const auto in_sheet = [](int i, int j) { return i / 4 % 2 == 0 || j / 4 % 2 == 0; };
+    const auto all = [](int, int) { return true; };
+    for (const auto& m :
+         {test::sheet(20, 20, plane, in_sheet), test::sheet(1000, 2, coil, all), test::sheet(200, 2, needles, all)})
+    {
+        const auto a = make_atlas(q, m);
+        REQUIRE(bool(a));
+        CHECK(a.report.charts.size() == 1);
+        CHECK(a.report.seam_length == 0);
+        CHECK(a.report.distortion == doctest::Approx(4).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("make_atlas: a long rod is cut along its length and around its ends")
+{
+    queue q(test::shared_context());
+    check_bound(q, prism(200, 100), 4.1, 3);
 }
 
 TEST_CASE("make_atlas: a long chart is cut across where that fills the square, at little cost")

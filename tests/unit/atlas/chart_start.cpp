@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include <support/meshes.hpp>
@@ -37,6 +39,26 @@ TEST_CASE("chart_start: a chart that folds when it is seen along its normal begi
         CHECK(start_of(m).energy < 20);
     }
     CHECK(start_of(test::annulus(8)).energy == doctest::Approx(4)); // a hole is no fold
+}
+
+TEST_CASE("chart_start: what unrolls begins unrolled, however long and thin")
+{
+    const auto coil = [](double turns, double width)
+    {
+        const auto square = test::grid(200, 2);
+        auto points = square.points();
+        for (vec3& p : points)
+        {
+            const double angle = 2 * std::numbers::pi * turns * p.x;
+            p = {std::cos(angle), std::sin(angle), width * p.y};
+        }
+        return mesh<triangle>(points, square.cells());
+    };
+    for (const auto& m : {coil(0.95, 50), coil(0.95, 1e-5), coil(3, 0.1)})
+    {
+        CHECK_FALSE(certify<2>(m.cells(), impl::projected(m)));
+        CHECK(start_of(m).energy == doctest::Approx(4).epsilon(1e-9));
+    }
 }
 
 TEST_CASE("chart_start: a given map counts where it has no flips")

@@ -422,6 +422,24 @@ TEST_CASE("seam search: what is flat already gets no seams")
     CHECK(search.result().energy == doctest::Approx(4));
 }
 
+TEST_CASE("seam search: what is within the bound as it is, holes and all, is left so")
+{
+    for (const auto& m : {test::annulus(24), test::cap(6, 0.3)})
+    {
+        const rest_surface rest = rest_of(m);
+        seam_search search(rest, {});
+        REQUIRE(search.run_whole());
+        CHECK(search.price() == 0);
+        CHECK(search.result().energy < 4.1);
+        check_no_flips(rest, search.result());
+    }
+    for (const auto& m : {test::cap(6, 2.5), test::box(2), test::torus(6, true)})
+    {
+        const rest_surface rest = rest_of(m);
+        CHECK_FALSE(seam_search(rest, {}).run_whole());
+    }
+}
+
 TEST_CASE("short cutting: seams lead back over the fine surface, given ones stay, unwanted ones are avoided")
 {
     const auto m = limbs(24);

@@ -285,6 +285,28 @@ TEST_CASE("barycentric map: stretch rounds repair what rounding folds")
     CHECK(rounds.flips.flipped == 0);
 }
 
+TEST_CASE("barycentric map: a slit is a hole whose cone has no area, which needs no weights of its shape")
+{
+    // A square of 4 by 4 quads whose middle vertex is two, below and above.
+    const auto square = taut::test::grid(4, 4);
+    auto points = square.points();
+    auto cells = square.cells();
+    constexpr taut::idx middle = 12;
+    for (auto& t : cells)
+    {
+        double height = 0;
+        for (const taut::idx v : t) height += points[static_cast<std::size_t>(v)].y / 3;
+        for (taut::idx& v : t)
+            if (v == middle && height > 0.5) v = 25;
+    }
+    points.push_back(points[middle]);
+    const surface m(points, cells);
+    REQUIRE(taut::boundary_loops(m).size() == 2);
+    const auto start = taut::impl::barycentric_map(m);
+    CHECK(start.flips);
+    CHECK(start.distortion.measure < 5);
+}
+
 TEST_CASE("barycentric map: prints what it is")
 {
     std::ostringstream out;

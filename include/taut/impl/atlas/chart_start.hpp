@@ -15,6 +15,7 @@
 #include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/exact/convex_polygons.hpp>
 #include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/start/unfolded.hpp>
 
 namespace taut::impl
 {
@@ -80,8 +81,28 @@ struct chart_start
         uv = std::move(map.uv);
     }
 
-    /// Computes the initial map: the given one, if it is valid; else the chart projected along its mean normal, or a
-    /// barycentric map where that is folded or strongly distorted. given: one point per vertex, or empty; in units of
+    static constexpr double good = 6; ///< energy that Newton's method lowers in a few steps
+
+    /// Considers the chart unfolded, and a barycentric map where that is folded or strongly distorted.
+    /// Without any map, throws mesh_error where the chart is closed or has handles.
+    void consider_laid(const mesh<triangle>& m, const ideal_elements<triangle>& ideal)
+    {
+        const auto f = facets(m);
+        consider(m, ideal, unfolded(m, f));
+        if (energy < good) return;
+        try
+        {
+            validate(m, f, {.referenced = false, .one_boundary = false});
+            consider(m, ideal, barycentric_map(m, f, {.stretch_rounds = 1}).uv);
+        }
+        catch (const error&)
+        {
+            if (uv.empty()) throw;
+        }
+    }
+
+    /// Computes the initial map: the given one, if it is valid; else the chart projected along its mean normal, or
+    /// laid otherwise where that is folded or strongly distorted. given: one point per vertex, or empty; in units of
     /// the chart.
     /// Throws mesh_error where the chart is closed or has handles, `error` where no map without flips was found.
     static chart_start of(const mesh<triangle>& m, const ideal_elements<triangle>& ideal, std::vector<vec2> given)
@@ -90,18 +111,7 @@ struct chart_start
         start.consider(m, ideal, std::move(given));
         if (!start.uv.empty()) return start;
         start.consider(m, ideal, projected(m));
-        constexpr double good = 6; // what Newton's method lowers in a few steps
-        if (start.energy < good) return start;
-        try
-        {
-            const auto f = facets(m);
-            validate(m, f, {.referenced = false, .one_boundary = false});
-            start.consider(m, ideal, barycentric_map(m, f, {.stretch_rounds = 1}).uv);
-        }
-        catch (const error&)
-        {
-            if (start.uv.empty()) throw;
-        }
+        start.consider_laid(m, ideal);
         if (start.uv.empty()) throw error("no map without flipped triangles was found to begin with");
         return start;
     }

@@ -131,12 +131,24 @@ private:
         return uv;
     }
 
+    /// Whether an energy is the least there is but for rounding, which steps would follow along thin strips.
+    static bool is_isometry(double energy) { return energy < 4 + 1e-9; }
+
     /// Runs Newton's method in batches that fit the memory of a device.
     void minimize()
     {
         std::vector<std::size_t> by_size;
         for (std::size_t k = 0; k < work_.size(); ++k)
-            if (!work_[k].uv.empty()) by_size.push_back(k);
+        {
+            if (work_[k].uv.empty()) continue;
+            if (params_.max_iterations > 0 && is_isometry(work_[k].energy))
+            {
+                result_.charts[k].outcome = chart_outcome::converged;
+                ++done_;
+            }
+            else
+                by_size.push_back(k);
+        }
         if (params_.max_iterations == 0)
             for (const std::size_t k : by_size) result_.charts[k].outcome = chart_outcome::iterations;
         if (by_size.empty() || params_.max_iterations == 0 || clock_.over()) return;
@@ -223,17 +235,38 @@ private:
         }
         try
         {
-            auto map = parameterize(queue_, work_[k].chart->surface, params, {clock_.left(), ask});
+            const auto& surface = work_[k].chart->surface;
+            const ideal_elements<triangle> ideal(surface);
+            chart_start start;
+            start.consider(surface, ideal, std::move(params.initial));
+            const bool known = !start.uv.empty();
+            start.consider(surface, ideal, unfolded(surface, facets(surface)));
+            if (is_isometry(start.energy))
+            {
+                work_[k].uv = std::move(start.uv);
+                report.outcome = chart_outcome::converged;
+                ++done_;
+                return;
+            }
+            constexpr double near = 4.1; // an isometry: nearer than what coarser levels leave
+            if (!known && !(start.energy < near)) start = {};
+            params.initial = start.uv;
+            auto map = parameterize(queue_, surface, params, {clock_.left(), ask});
             report.iterations = static_cast<int>(map.report.solve.iterations);
             report.reason = map.reason();
-            report.outcome = !map                                            ? chart_outcome::no_map
+            if (map) start.consider(surface, ideal, std::move(map.uv)); // in single precision it may be the worse one
+            work_[k].uv = std::move(start.uv);
+            report.outcome = work_[k].uv.empty()                             ? chart_outcome::no_map
                              : solve::impl::converged(map.report.solve.stop) ? chart_outcome::converged
                              : clock_.over()                                 ? chart_outcome::stopped
                              : steps >= params_.max_iterations               ? chart_outcome::iterations
                                                                              : chart_outcome::stuck;
-            if (map) work_[k].uv = std::move(map.uv);
         }
-        catch (const mesh_error& e)
+        catch (const device_error&)
+        {
+            throw;
+        }
+        catch (const error& e)
         {
             report.outcome = chart_outcome::no_map;
             report.reason = e.what();

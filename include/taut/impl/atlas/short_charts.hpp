@@ -84,7 +84,11 @@ inline short_trial try_seams(atlas_run& run, const atlas_surface& of, std::vecto
                {.distance = 0.03 * std::sqrt(cutting.area()), .least_length = 0.8});
     // Of a rough surface the bound is out of reach, and the last digits take most of the steps.
     const auto how = cutting.rough() ? atlas_run::precise::rough : atlas_run::precise::exactly;
-    short_trial made{.set = flattened(run, of, std::move(seam), how), .bad = {}, .plain = {}};
+    short_trial made{.set =
+                         cut(of, {std::move(seam), cutting.places(), std::vector<double>(of.surface.cells().size())}),
+                     .bad = {},
+                     .plain = {}};
+    flatten(run, made.set, how);
     made.bad = unfit(made.set);
     const auto touching = touching_charts(made.set);
     for (std::size_t k = 0; k < touching.size(); ++k)

@@ -6,10 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
-#include <string>
 #include <vector>
 
-#include <taut/impl/core/error.hpp>
 #include <taut/impl/core/types.hpp>
 #include <taut/impl/sparse/barycentric_system.hpp>
 #include <taut/impl/start/barycentric_params.hpp>
@@ -32,7 +30,7 @@ inline double tan_half_angle(const vec3& p, const vec3& q, const vec3& r)
 ///
 /// points: #V rest positions; cells: #F triangles; fixed: #V; x: #V, read where fixed; pull: #V positive factors of the
 /// weights towards each vertex, or empty.
-/// Throws `error` if a weight is not positive and finite: a degenerate triangle.
+/// A vertex whose weights are not all positive and finite has uniform ones: a triangle there is degenerate.
 inline barycentric_system make_barycentric_system(std::span<const vec3> points,
                                                   std::span<const std::array<idx, 3>> cells,
                                                   std::span<const char> fixed, std::span<const vec2> x,
@@ -89,16 +87,20 @@ inline barycentric_system make_barycentric_system(std::span<const vec3> points,
     {
         const std::span row(entries.data() + start[u(v)], entries.data() + start[u(v) + 1]);
         std::sort(row.begin(), row.end(), [](const entry& a, const entry& b) { return a.to < b.to; });
+        std::size_t neighbours = 0;
+        bool valid = true;
+        for (std::size_t k = 0; k < row.size(); ++neighbours)
+        {
+            entry sum{row[k].to, 0};
+            for (; k < row.size() && row[k].to == sum.to; ++k) sum.weight += row[k].weight;
+            valid = valid && sum.weight > 0 && std::isfinite(sum.weight);
+            row[neighbours] = sum;
+        }
         double excess = 0;
         vec2 rhs(0);
-        for (std::size_t k = 0; k < row.size();)
+        for (const auto& [to, weight] : row.first(neighbours))
         {
-            const idx to = row[k].to;
-            double w = 0;
-            for (; k < row.size() && row[k].to == to; ++k) w += row[k].weight;
-            if (!(w > 0) || !std::isfinite(w))
-                throw error("the weight of edge " + std::to_string(v) + "-" + std::to_string(to) +
-                            " is not positive and finite: a triangle there is degenerate; use uniform weights");
+            const double w = valid ? weight : 1;
             if (fixed[u(to)])
             {
                 excess += w;

@@ -185,7 +185,7 @@ inline start_map robust_start(const mesh<triangle>& m, const robust_start_params
         }
         catch (const error&)
         {
-            // Mean value weights do not exist on the flattest triangles; uniform ones do.
+            // Weights of very different sizes may be too much for the solver; uniform ones are not.
             if (weights == barycentric_weights::uniform && best.uv.empty()) throw;
         }
     }

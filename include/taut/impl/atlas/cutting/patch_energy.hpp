@@ -7,30 +7,36 @@
 #include <cstddef>
 #include <vector>
 
+#include <taut/impl/atlas/chart_start.hpp>
 #include <taut/impl/atlas/cutting/flat_surface.hpp>
 #include <taut/impl/atlas/surface_part.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
 
 namespace taut::impl
 {
 
-/// Maps what seams leave of a surface from nothing, if it is in one piece that is not closed. Returns whether there is
-/// a map.
+/// Maps what seams leave of a surface, if it is in one piece that is not closed: unfolded where that is less distorted
+/// than the map that it has, or, without one, by a barycentric map. Returns whether there is a map.
 inline bool start_flat(const rest_surface& rest, flat_surface& flat)
 {
     const cut_surface cut = cut_surface::of(rest, flat);
     const mesh<triangle> m(cut.points, cut.cells);
     try
     {
-        const auto map = barycentric_map(m, facets(m), {.stretch_rounds = 1});
-        if (!map.flips) return false;
+        const ideal_elements<triangle> ideal(m);
+        chart_start start{.uv = {}, .energy = flat.energy};
+        if (flat.uv.empty())
+            start.consider_laid(m, ideal);
+        else
+            start.consider(m, ideal, unfolded(m, facets(m)));
+        if (start.uv.empty()) return !flat.uv.empty();
+        flat.energy = start.energy;
         flat.uv.resize(flat.fan.size());
         for (std::size_t corner = 0; corner < flat.fan.size(); ++corner)
-            flat.uv[corner] = map.uv[rest_surface::u(cut.cells[corner / 3][corner % 3])];
+            flat.uv[corner] = start.uv[rest_surface::u(cut.cells[corner / 3][corner % 3])];
     }
     catch (const error&)
     {
-        return false;
+        return !flat.uv.empty();
     }
     return true;
 }

@@ -42,6 +42,29 @@ public:
 
     seam_search(const rest_surface& rest, const search_setting& setting) : rest_(rest), setting_(setting) {}
 
+    /// Maps the surface as it is, without a seam: a disk, or a disk with holes. False if that is above the bound, or
+    /// lies on itself; the surface is then searched by run().
+    bool run_whole()
+    {
+        flat_.seam.assign(rest_.facets.twin.size(), 0);
+        number_fans(rest_, flat_);
+        const bool mapped = start_flat(rest_, flat_);
+        constexpr int few = 20;
+        constexpr double isometric = 4 + 1e-9; // which needles, that are stiff in the search, need not be
+        if (mapped && flat_.energy > isometric)
+        {
+            relax(rest_, flat_, few, 1e-3);
+            if (flat_.energy < 4 + 2 * (setting_.bound - 4)) relax(rest_, flat_, 60, 1e-4);
+        }
+        if (mapped && flat_.energy <= setting_.bound && border_crossings(rest_, flat_, 1) == 0)
+        {
+            note(flat_);
+            return true;
+        }
+        flat_ = {};
+        return false;
+    }
+
     /// False if there is no map to begin with.
     bool run()
     {
@@ -130,7 +153,7 @@ private:
             const int added = more.run(flat_.seam, stop, most, longest);
             if (turn > 0 && added == 0) continue;
             number_fans(rest_, flat_);
-            if (flat_.uv.empty() && !start_flat(rest_, flat_)) return false;
+            if (!start_flat(rest_, flat_)) return false;
             relax(rest_, flat_, 60, 1e-4);
             if (flat_.energy <= enough) break;
         }
@@ -140,6 +163,7 @@ private:
             if (seam_length(rest_, flat_.seam) > longest) break;
             if (cut_strained(rest_, flat_, 0.5 * (flat_.energy - enough)) == 0) break;
             number_fans(rest_, flat_);
+            start_flat(rest_, flat_);
             relax(rest_, flat_, 60, 1e-4);
         }
         if (flat_.energy > setting_.bound && flat_.energy < infinite && seam_length(rest_, flat_.seam) >= longest)

@@ -72,7 +72,7 @@ public:
         };
         std::vector<task> tasks;
         for (const std::size_t k : order)
-            if (searches_[k] && searches_[k]->rest)
+            if (searches_[k] && searches_[k]->rest && !searches_[k]->search)
                 for (const search_setting& s : settings(searches_[k]->rest->triangles(), searches_[k]->bound))
                     tasks.push_back({k, s, {}});
         for_each(tasks.size(),
@@ -182,6 +182,16 @@ public:
         return seam;
     }
 
+    /// Places of the corners of the surface in the maps of searches on the surface itself; 0 elsewhere.
+    std::vector<vec2> places() const
+    {
+        std::vector<vec2> uv(facets_.twin.size(), vec2(0.0));
+        for (std::size_t k = 0; k < searches_.size(); ++k)
+            if (searches_[k] && searches_[k]->search && !searches_[k]->coarser)
+                for (std::size_t s = 0; s < 3 * cells(k); ++s) uv[origin(k, s)] = searches_[k]->search->result().uv[s];
+        return uv;
+    }
+
 private:
     static std::size_t u(idx i) { return static_cast<std::size_t>(i); }
 
@@ -262,12 +272,16 @@ private:
         const idx first_span = span_small_holes(coarse);
         p.rest = rest_surface::of(mesh<triangle>(std::move(coarse.points), std::move(coarse.cells)), first_span);
         p.area = p.rest->total;
-        if (factors_.empty() && (p.coarser || together_.empty())) return;
-        const auto price = fine_prices(k);
-        if (p.coarser)
-            p.rest->price = way_prices(*p.surface, p.facets, starting_sides(*p.surface), price, *p.rest, p.origins);
-        else
-            std::copy(price.begin(), price.end(), p.rest->price.begin());
+        if (!factors_.empty() || (!p.coarser && !together_.empty()))
+        {
+            const auto price = fine_prices(k);
+            if (p.coarser)
+                p.rest->price = way_prices(*p.surface, p.facets, starting_sides(*p.surface), price, *p.rest, p.origins);
+            else
+                std::copy(price.begin(), price.end(), p.rest->price.begin());
+        }
+        auto whole = std::make_unique<seam_search>(*p.rest, settings(p.rest->triangles(), p.bound).front());
+        if (whole->run_whole()) p.search = std::move(whole);
     }
 
     std::vector<search_setting> settings(idx triangles, double bound)
