@@ -111,7 +111,7 @@ struct chart_start
         start.consider(m, ideal, std::move(given));
         if (!start.uv.empty()) return start;
         start.consider(m, ideal, projected(m));
-        start.consider_laid(m, ideal);
+        if (!(start.energy < good)) start.consider_laid(m, ideal);
         if (start.uv.empty()) throw error("no map without flipped triangles was found to begin with");
         return start;
     }

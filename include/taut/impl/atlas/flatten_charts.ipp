@@ -239,7 +239,7 @@ private:
             const ideal_elements<triangle> ideal(surface);
             chart_start start;
             start.consider(surface, ideal, std::move(params.initial));
-            const bool known = !start.uv.empty();
+            params.initial = start.uv;
             start.consider(surface, ideal, unfolded(surface, facets(surface)));
             if (is_isometry(start.energy))
             {
@@ -248,9 +248,6 @@ private:
                 ++done_;
                 return;
             }
-            constexpr double near = 4.1; // an isometry: nearer than what coarser levels leave
-            if (!known && !(start.energy < near)) start = {};
-            params.initial = start.uv;
             auto map = parameterize(queue_, surface, params, {clock_.left(), ask});
             report.iterations = static_cast<int>(map.report.solve.iterations);
             report.reason = map.reason();
