@@ -14,6 +14,7 @@
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
+#include <taut/impl/core/single.hpp>
 #include <taut/impl/mesh/facets.hpp>
 #include <taut/impl/packing/outlines.hpp>
 
@@ -33,7 +34,7 @@ inline double last_digit(std::span<const vec3> points)
             const double x = std::abs(p[k]);
             if (x == 0) continue;
             largest = std::max(largest, x);
-            single = single && static_cast<double>(static_cast<float>(x)) == x;
+            single = single && in_single(x) == x;
             if (!decimal) continue;
             const double scaled = x * std::pow(10.0, digits - 1 - std::floor(std::log10(x)));
             decimal = std::abs(scaled - std::round(scaled)) < 1e-6;
