@@ -169,13 +169,12 @@ TEST_CASE("barycentric system: rows carry positive weights and the excess toward
     }
 }
 
-TEST_CASE("barycentric system: a degenerate triangle has no mean value weights, uniform ones do not mind")
+TEST_CASE("barycentric system: a vertex of a degenerate triangle has uniform weights")
 {
     const std::vector<taut::vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}};
     const std::vector<std::array<taut::idx, 3>> cells{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
     const std::vector<char> fixed{1, 1, 1, 0};
     const std::vector<vec2> x{{0, 0}, {1, 0}, {0, 1}, {0, 0}};
-    CHECK_THROWS_AS(taut::impl::make_barycentric_system(points, cells, fixed, x, barycentric_weights::mean_value),
-                    taut::error);
-    CHECK(taut::impl::make_barycentric_system(points, cells, fixed, x, barycentric_weights::uniform).excess[0] == 3);
+    for (const auto weights : {barycentric_weights::mean_value, barycentric_weights::uniform})
+        CHECK(taut::impl::make_barycentric_system(points, cells, fixed, x, weights).excess[0] == 3);
 }
