@@ -14,35 +14,12 @@
 #include <taut/impl/atlas/atlas_summary.hpp>
 #include <taut/impl/atlas/chart_mesh.hpp>
 #include <taut/impl/atlas/settled_charts.hpp>
-#include <taut/impl/core/single.hpp>
 #include <taut/impl/mesh/facets.hpp>
+#include <taut/impl/mesh/last_digit.hpp>
 #include <taut/impl/packing/outlines.hpp>
 
 namespace taut::impl
 {
-
-/// The last digit of the largest coordinate, where all have six significant digits at most or are single precision,
-/// as in files; else 0.
-inline double last_digit(std::span<const vec3> points)
-{
-    constexpr int digits = 6;
-    double largest = 0;
-    bool decimal = true, single = true;
-    for (const vec3& p : points)
-        for (int k = 0; k < 3; ++k)
-        {
-            const double x = std::abs(p[k]);
-            if (x == 0) continue;
-            largest = std::max(largest, x);
-            single = single && in_single(x) == x;
-            if (!decimal) continue;
-            const double scaled = x * std::pow(10.0, digits - 1 - std::floor(std::log10(x)));
-            decimal = std::abs(scaled - std::round(scaled)) < 1e-6;
-        }
-    if (largest == 0) return 0;
-    if (decimal) return std::pow(10.0, std::floor(std::log10(largest)) + 1 - digits);
-    return single ? std::ldexp(largest, -23) : 0;
-}
 
 /// Faces of a copy, and those that they are copies of.
 struct copied_faces

@@ -12,9 +12,9 @@
 #include <taut/impl/core/counting_sort.hpp>
 #include <taut/impl/core/short_number.hpp>
 #include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/mesh/last_digit.hpp>
 #include <taut/impl/repair/describe_finding.hpp>
 #include <taut/impl/repair/fans.hpp>
-#include <taut/impl/repair/last_digit.hpp>
 #include <taut/impl/repair/places.hpp>
 #include <taut/impl/repair/repair_surface.hpp>
 
