@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/impl/io/file/posix_file.hpp>
+#include <taut/impl/io/atomic_file.hpp>
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <random>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
