@@ -14,6 +14,7 @@
 #include <taut/impl/edit/attach/bending.hpp>
 #include <taut/impl/edit/attach/choose_place.hpp>
 #include <taut/impl/edit/attach/laid_feature.hpp>
+#include <taut/impl/edit/geodesic_distances.hpp>
 #include <taut/impl/edit/paste_params.hpp>
 #include <taut/impl/edit/paste_report.hpp>
 #include <taut/impl/edit/rbf_error.hpp>

@@ -12,6 +12,7 @@
 #include <taut/impl/edit/attach/landing.hpp>
 #include <taut/impl/edit/surface/face_set.hpp>
 #include <taut/impl/edit/surface/plane_triangulation.hpp>
+#include <taut/impl/mesh/boundary.hpp>
 
 namespace taut::impl
 {
