@@ -12,8 +12,10 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/impl/atlas/flatten_charts.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/core/solve/report.hpp>
+#include <taut/parameterize.hpp>
 
 #include "measure.hpp"
 

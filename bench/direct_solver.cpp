@@ -16,7 +16,7 @@ namespace
 class cholmod_solver final : public direct_solver
 {
 public:
-    cholmod_solver(const taut::impl::block_rows<3>& pattern, const std::vector<bool>& free) : rank_(free.size(), -1)
+    cholmod_solver(const taut::block_rows<3>& pattern, const std::vector<bool>& free) : rank_(free.size(), -1)
     {
         int n = 0;
         for (std::size_t v = 0; v < free.size(); ++v)
@@ -41,7 +41,7 @@ public:
         factor_.emplace(column_, row_, value_);
     }
 
-    bool factorize(const taut::impl::block_rows<3>& m) override
+    bool factorize(const taut::block_rows<3>& m) override
     {
         for (std::size_t v = 0; v < rank_.size(); ++v)
             for (taut::idx k = m.offsets[v]; k < m.offsets[v + 1]; ++k)
@@ -73,7 +73,7 @@ public:
 
 private:
     /// The lower triangle of the free part by columns, in the numbers of rank_.
-    std::pair<std::vector<int>, std::vector<int>> lower(const taut::impl::block_rows<3>& m, int n) const
+    std::pair<std::vector<int>, std::vector<int>> lower(const taut::block_rows<3>& m, int n) const
     {
         std::vector<std::vector<int>> columns(static_cast<std::size_t>(n));
         for (std::size_t v = 0; v < rank_.size(); ++v)
@@ -100,8 +100,7 @@ private:
 
 } // namespace
 
-std::unique_ptr<direct_solver> make_direct_solver(const taut::impl::block_rows<3>& pattern,
-                                                  const std::vector<bool>& free)
+std::unique_ptr<direct_solver> make_direct_solver(const taut::block_rows<3>& pattern, const std::vector<bool>& free)
 {
     return std::make_unique<cholmod_solver>(pattern, free);
 }

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/core/types.hpp>
-#include <taut/impl/sparse/block_rows.hpp>
+#include <taut/evaluator.hpp>
+#include <taut/types.hpp>
 
 namespace bench
 {
@@ -19,14 +19,13 @@ public:
     virtual ~direct_solver() = default;
 
     /// False if the matrix is not positive definite.
-    virtual bool factorize(const taut::impl::block_rows<3>& matrix) = 0;
+    virtual bool factorize(const taut::block_rows<3>& matrix) = 0;
 
     /// d = the solution for b at free vertices, and 0 elsewhere.
     virtual void solve(std::span<const taut::vec3> b, std::span<taut::vec3> d) = 0;
 };
 
 /// By CHOLMOD; null where the build left it out (TAUT_BENCH_PEERS). pattern: a matrix of it. free: one per vertex.
-std::unique_ptr<direct_solver> make_direct_solver(const taut::impl::block_rows<3>& pattern,
-                                                  const std::vector<bool>& free);
+std::unique_ptr<direct_solver> make_direct_solver(const taut::block_rows<3>& pattern, const std::vector<bool>& free);
 
 } // namespace bench

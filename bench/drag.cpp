@@ -16,10 +16,11 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/map/session.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/mesh.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/session.hpp>
+#include <taut/surface_file.hpp>
 
 #include "measure.hpp"
 

@@ -15,10 +15,10 @@
 #include <support/edit_meshes.hpp>
 #include <support/rbf_points.hpp>
 
-#include <taut/impl/edit/paste.hpp>
-#include <taut/impl/edit/rbf.hpp>
-#include <taut/impl/edit/rbf_evaluator.hpp>
-#include <taut/impl/io/read_surface.hpp>
+#include <taut/impl/charts/paste/rbf.hpp>
+#include <taut/impl/charts/paste/rbf_evaluator.hpp>
+#include <taut/paste.hpp>
+#include <taut/surface_file.hpp>
 
 #include "measure.hpp"
 

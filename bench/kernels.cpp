@@ -9,9 +9,9 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/objective/mesh_levels.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/objective/mesh_levels.hpp>
+#include <taut/impl/core/objective/newton_objective.hpp>
 
 #include "measure.hpp"
 #include "native.hpp"

@@ -3,8 +3,8 @@
 
 #include <ctime>
 
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/surface_file.hpp>
 
 #include "measure.hpp"
 #include "peak_memory.hpp"

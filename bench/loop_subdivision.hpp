@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <taut/impl/mesh/facets.hpp>
+#include <taut/impl/core/mesh/facets.hpp>
 
 namespace bench
 {

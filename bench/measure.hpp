@@ -13,8 +13,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/compute/queue.hpp>
-#include <taut/impl/io/atomic_file.hpp>
+#include <taut/files.hpp>
+#include <taut/queue.hpp>
 #include <taut/version.hpp>
 
 #ifndef TAUT_BENCH_COMMIT

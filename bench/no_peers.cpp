@@ -15,7 +15,7 @@ std::string peer_blas()
     return {};
 }
 
-std::unique_ptr<direct_solver> make_direct_solver(const taut::impl::block_rows<3>&, const std::vector<bool>&)
+std::unique_ptr<direct_solver> make_direct_solver(const taut::block_rows<3>&, const std::vector<bool>&)
 {
     return nullptr;
 }

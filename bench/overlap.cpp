@@ -9,9 +9,10 @@
 
 #include <support/strips.hpp>
 
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/mesh.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/surface_file.hpp>
 
 #include "measure.hpp"
 

@@ -8,8 +8,7 @@
 #include <vector>
 
 #include <support/chart_sets.hpp>
-#include <taut/impl/packing/certificate.hpp>
-#include <taut/impl/packing/pack.hpp>
+#include <taut/pack.hpp>
 
 #include "measure.hpp"
 

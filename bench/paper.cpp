@@ -8,9 +8,9 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/solve/line/line_search.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/solve_params.hpp>
+#include <taut/surface_file.hpp>
 
 #include "measure.hpp"
 
@@ -22,7 +22,7 @@ using namespace taut;
 /// Counters of the queue at the first iterate and at the last, so that start-up is left out.
 struct usage
 {
-    taut::impl::queue_counters first, last;
+    taut::queue_counters first, last;
 };
 
 /// A way to run the method.

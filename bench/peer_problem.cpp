@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
 
 namespace bench::peer
 {

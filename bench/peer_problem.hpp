@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/mesh.hpp>
 
 namespace bench::peer
 {

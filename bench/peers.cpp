@@ -7,9 +7,10 @@
 
 #include <dlfcn.h>
 
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/mesh.hpp>
+#include <taut/surface_file.hpp>
 
 #include "measure.hpp"
 #include "peak_memory.hpp"

@@ -15,8 +15,8 @@
 #include <support/meshes.hpp>
 #include <support/winding.hpp>
 
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/surface_file.hpp>
 
 #include "measure.hpp"
 

@@ -12,8 +12,8 @@
 #include <Eigen/Sparse>
 #include <Eigen/SparseCholesky>
 
-#include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/mesh/hinge.hpp>
+#include <taut/constraints.hpp>
+#include <taut/shell.hpp>
 
 namespace bench
 {

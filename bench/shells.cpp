@@ -18,9 +18,11 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/exact/collapses.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/map/deform.hpp>
+#include <taut/certify.hpp>
+#include <taut/deform.hpp>
+#include <taut/impl/core/exact/collapses.hpp>
+#include <taut/impl/core/measure/shape_quality.hpp>
+#include <taut/surface_file.hpp>
 
 #include "rigid_as_possible.hpp"
 

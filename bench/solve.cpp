@@ -8,7 +8,7 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/impl/io/write_obj.hpp>
+#include <taut/surface_file.hpp>
 
 #include "library_solvers.hpp"
 #include "loop_subdivision.hpp"

@@ -92,14 +92,14 @@ inline void print(const mesh_result& m, double triad)
     for (const auto& s : m.solvers)
     {
         const auto phase = [&](double phases::*p) { return s.of([p](const solver_run& r) { return r.seconds.*p; }); };
-        const auto count = [&](std::uint64_t taut::impl::queue_counters::*c)
+        const auto count = [&](std::uint64_t taut::queue_counters::*c)
         { return static_cast<double>(s.of([c](const solver_run& r) { return r.counters.*c; })); };
         std::printf("%-15s| %5.3f %6.3f %6.3f %5.3f %6.3f %6.3f | %6.2f  %4zu |", s.name.c_str(), phase(&phases::read),
                     phase(&phases::device), phase(&phases::hierarchy), phase(&phases::start), phase(&phases::other),
                     phase(&phases::solve), s.of([](const solver_run& r) { return r.cpu_seconds; }), s.runs.size());
-        std::printf(" %6.0f %8.0f %6.1f %8.1f |", count(&taut::impl::queue_counters::waits),
-                    count(&taut::impl::queue_counters::launches), count(&taut::impl::queue_counters::bytes_read) * 1e-6,
-                    count(&taut::impl::queue_counters::bytes_written) * 1e-6);
+        std::printf(" %6.0f %8.0f %6.1f %8.1f |", count(&taut::queue_counters::waits),
+                    count(&taut::queue_counters::launches), count(&taut::queue_counters::bytes_read) * 1e-6,
+                    count(&taut::queue_counters::bytes_written) * 1e-6);
         if (const auto rate = s.rate())
             std::printf(" %10.2f %6.0f %% |", *rate * 1e-9, 100 * *rate / triad);
         else

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/compute/queue.hpp>
+#include <taut/queue.hpp>
 
 namespace bench
 {
@@ -51,7 +51,7 @@ struct solver_run
     std::size_t flipped = 0;
     std::string stop;                         ///< why it ended
     bool limited = false;                     ///< by the time limit
-    taut::impl::queue_counters counters;      ///< of a solver on the device
+    taut::queue_counters counters;            ///< of a solver on the device
     std::optional<std::uint64_t> bytes_moved; ///< by the element kernels, at least
     std::size_t peak_bytes = 0, bytes_before = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/impl/compute/kernel.hpp>
+#include <taut/impl/core/compute/kernel.hpp>
 
 #include "measure.hpp"
 

@@ -13,11 +13,12 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/io/prob.hpp>
-#include <taut/impl/map/deform.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/untangle/untangle.hpp>
+#include <taut/deform.hpp>
+#include <taut/impl/core/untangle/untangle_host.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/untangle.hpp>
+#include <taut/volume_file.hpp>
 
 #include "measure.hpp"
 

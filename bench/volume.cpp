@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Volumes whose ends are held and moved: bars, and models in any format of impl/io/read_volume.hpp, whose ends are the
-// first and last tenth along their longest axis. Twisted, stretched and bent; bars then lead a handle over 60 frames.
+// Volumes whose ends are held and moved: bars, and models in any format of impl/files/volume/read_volume.hpp, whose
+// ends are the first and last tenth along their longest axis. Twisted, stretched and bent; bars then lead a handle over
+// 60 frames.
 //   taut_bench_volume [--quick] [--json FILE] [--only ends|session|compare] [--motion twist|stretch|bend]
 //                     [--poisson 0.3,0.45] [--compare SECONDS] [CUBES_ACROSS|NXxNYxNZ|MESH...]
 // A bar has 30 n^3 tetrahedra for n cubes across, or 6 nx ny nz; without arguments 8 and 16. Kernels are compiled
@@ -26,9 +27,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/energy/neo_hookean.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/map/deform.hpp>
+#include <taut/deform.hpp>
+#include <taut/energies.hpp>
+#include <taut/volume_file.hpp>
 
 #include "measure.hpp"
 #include "peak_memory.hpp"

@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/constraints.hpp>
+#include <taut/mesh.hpp>
+#include <taut/rigid_motion.hpp>
 
 namespace bench
 {

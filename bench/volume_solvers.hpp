@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/map/deform.hpp>
-#include <taut/impl/objective/map_evaluator.hpp>
-#include <taut/impl/solve/minimize.hpp>
-#include <taut/impl/untangle/untangle.hpp>
+#include <taut/deform.hpp>
+#include <taut/energies.hpp>
+#include <taut/evaluator.hpp>
+#include <taut/solve.hpp>
+#include <taut/untangle.hpp>
 
 #include "direct_solver.hpp"
 #include "measure.hpp"

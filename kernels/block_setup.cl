@@ -9,10 +9,12 @@
 // check: -DREAL=double -DREAL_IS_DOUBLE=1 -DD=3 -DK=4 -DC=32 -DV=1 -DTEAM=256 -DGROUP=1 -DSHARE=16 -DITEMS=128 -DEPSILON=1e-12
 
 /// A loop as it stands. On CPUs compilers take longer for copies of it, for vectors and for counts, than these save.
+#ifndef PLAIN
 #if V == 1
 #define PLAIN for
 #else
 #define PLAIN _Pragma("clang loop vectorize(disable) interleave(disable) unroll(disable)") for
+#endif
 #endif
 
 /// Inverses of the diagonal blocks (nonzero 0 of each row), packed. The factorization L d L' keeps each pivot above
@@ -187,6 +189,13 @@ inline void product_row(const int slice, const int lane, const int rows, const i
 }
 #endif
 
+/// Memory of an item that may be too large for a thread's stack.
+#ifndef SCRATCH
+#define SCRATCH(T, name, n) T name[n]
+#endif
+/// Entry e of the block at hand of galerkin, 0 beyond it.
+#define ENTRY(e) ((e) < D * D ? PICK(fine, at * D * D + (e) * C + lane) : (REAL)0)
+
 /// Values of the coarse matrix P' A P. On GPUs SHARE items do a row. On CPUs one does a group of `size` rows, and sums row i
 /// of A P once for all of its rows that fine row i goes to. Nonzeros of a row are told apart by the colours of their
 /// columns, `count` in all; where those of a row do not differ, its own colour has the flag CLASH, and it is summed term
@@ -208,7 +217,8 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
 #else
     const int group = (int)get_global_id(0), begin = group * size, pitch = count * QUADS;
     // Of rows of P' A P, the last for what goes elsewhere, and of a row of A P. Rows are not a power of two apart.
-    REAL4 sums[(GROUP + 1) * COLOURS * QUADS], product[COLOURS * QUADS];
+    SCRATCH(REAL4, sums, (GROUP + 1) * COLOURS * QUADS);
+    REAL4 product[COLOURS * QUADS];
     for (int p = 0; p < (size + 1) * pitch; ++p) sums[p] = 0;
     for (int p = 0; p < pitch; ++p) product[p] = 0;
 
@@ -224,12 +234,13 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
             {
                 const int j = fine_columns[at + lane], code = codes[j];
                 const REAL4 right = *(__global const REAL4*)(column_weights + 4 * j);
-                REAL4 block[QUADS] = {0};
-                UNROLLED (int e = 0; e < D * D; ++e) ((REAL*)block)[e] = PICK(fine, at * D * D + e * C + lane);
+                REAL4 block[QUADS];
+                UNROLLED (int q = 0; q < QUADS; ++q)
+                    block[q] = VECTOR(REAL4)(ENTRY(4 * q), ENTRY(4 * q + 1), ENTRY(4 * q + 2), ENTRY(4 * q + 3));
                 UNROLLED (int l = 0; l < K; ++l)
                 {
                     const int c = code >> 8 * l & 255;
-                    touched[c / 64] |= 1UL << c % 64;
+                    touched[c / 64] |= (ulong)1 << c % 64;
                     UNROLLED (int q = 0; q < QUADS; ++q)
                         product[c * QUADS + q] += ((const REAL*)&right)[l] * block[q];
                 }
@@ -244,7 +255,7 @@ __kernel void galerkin(const int rows, const int fine_stride, const int size, co
                 left[k] = here ? weights[k * fine_stride + i] : 0;
             }
             UNROLLED (int w = 0; w < COLOURS / 64; ++w)
-                for (ulong some = touched[w]; some; some ^= 1UL << HIGHEST(some))
+                for (ulong some = touched[w]; some; some ^= (ulong)1 << HIGHEST(some))
                 {
                     const int p = (64 * w + HIGHEST(some)) * QUADS;
                     UNROLLED (int q = 0; q < QUADS; ++q)

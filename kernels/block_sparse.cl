@@ -25,7 +25,13 @@
 
 #define CAT_(a, b) a##b
 #define CAT(a, b) CAT_(a, b)
+#ifndef UNROLLED
 #define UNROLLED _Pragma("unroll") for
+#endif
+/// A vector of its lanes: a literal of OpenCL C, a constructor of C++.
+#ifndef VECTOR
+#define VECTOR(T) (T)
+#endif
 #if V == 1
 #define REALV REAL
 #define INTV int
@@ -45,10 +51,10 @@
 /// twice as long (AVX-512, Zen 4).
 #define PICK(p, at) (*(volatile __global const REAL*)((p) + (at)))
 #define GATHER(p, at)                                                                                                  \
-    (REALV)(PICK(p, (at).s0), PICK(p, (at).s1), PICK(p, (at).s2), PICK(p, (at).s3), PICK(p, (at).s4),                  \
-            PICK(p, (at).s5), PICK(p, (at).s6), PICK(p, (at).s7), PICK(p, (at).s8), PICK(p, (at).s9),                  \
-            PICK(p, (at).sa), PICK(p, (at).sb), PICK(p, (at).sc), PICK(p, (at).sd), PICK(p, (at).se),                  \
-            PICK(p, (at).sf))
+    VECTOR(REALV)                                                                                                      \
+    (PICK(p, (at).s0), PICK(p, (at).s1), PICK(p, (at).s2), PICK(p, (at).s3), PICK(p, (at).s4), PICK(p, (at).s5),       \
+     PICK(p, (at).s6), PICK(p, (at).s7), PICK(p, (at).s8), PICK(p, (at).s9), PICK(p, (at).sa), PICK(p, (at).sb),       \
+     PICK(p, (at).sc), PICK(p, (at).sd), PICK(p, (at).se), PICK(p, (at).sf))
 #define WHERE_INT(test, yes, no) select((INTV)(no), (INTV)(yes), test)
 #define WHERE(test, yes, no) select((REALV)(no), (REALV)(yes), test)
 #endif
@@ -75,6 +81,20 @@
 inline void gather(const int stride, __global const int* at, __global const REAL* x, REALV* out)
 {
     UNROLLED (int c = 0; c < D; ++c) out[c] = x[c * stride + *at];
+}
+#elif defined(WHOLE_VECTORS) // C++: what reads a vector waits for lanes that were written one by one
+inline __attribute__((always_inline)) void gather(const int stride, __global const int* at, __global const REAL* x,
+                                                  REALV* out)
+{
+    UNROLLED (int c = 0; c < D; ++c)
+    {
+        __global const REAL* const p = x + c * stride;
+        out[c] = VECTOR(REALV)(PICK(p, (uint)at[0]), PICK(p, (uint)at[1]), PICK(p, (uint)at[2]), PICK(p, (uint)at[3]),
+                               PICK(p, (uint)at[4]), PICK(p, (uint)at[5]), PICK(p, (uint)at[6]), PICK(p, (uint)at[7]),
+                               PICK(p, (uint)at[8]), PICK(p, (uint)at[9]), PICK(p, (uint)at[10]),
+                               PICK(p, (uint)at[11]), PICK(p, (uint)at[12]), PICK(p, (uint)at[13]),
+                               PICK(p, (uint)at[14]), PICK(p, (uint)at[15]));
+    }
 }
 #else
 #define LANE_OF(s, k)                                                                                                  \
@@ -176,7 +196,7 @@ __kernel void jacobi(const int stride, __global const REAL* inverse, __global co
 /// The sum of a list of element blocks. Slot: where entry 0 is; entries are `cells` apart. NONE ends a lane's list; the
 /// complement of a slot stands for the transposed block. Diagonal blocks hold their upper triangle.
 #define NONE 0x7fffffff
-inline REALV entries(__global const REAL* blocks, const INTV from, const INTV none)
+inline __attribute__((always_inline)) REALV entries(__global const REAL* blocks, const INTV from, const INTV none)
 {
     const REALV value = GATHER(blocks, from);
 #if V > 1 && REAL_IS_DOUBLE

@@ -34,14 +34,20 @@ void element_along(INPUTS, __global const REAL* d, __global const REAL* unit, __
 #define LANE ((int)get_local_id(0))
 #define BARRIER barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
 #else
-#define EACH(i, from, to)                                                                                              \
-    _Pragma("clang loop vectorize(assume_safety) vectorize_width(4)") for (int i = (from); i < (to); ++i)
+#ifndef INDEPENDENT
+#define INDEPENDENT _Pragma("clang loop vectorize(assume_safety) vectorize_width(4)")
+#endif
+#define EACH(i, from, to) INDEPENDENT for (int i = (from); i < (to); ++i)
 #define LANE 0
 #define BARRIER
 #endif
 #define CAT_(a, b) a##b
 #define CAT(a, b) CAT_(a, b)
 #define REAL4 CAT(REAL, 4)
+/// A vector of its lanes: a literal of OpenCL C, a constructor of C++.
+#ifndef VECTOR
+#define VECTOR(T) (T)
+#endif
 /// Not a multiple of large powers of 2, which the sets of a cache would not like.
 #define STRIDE(n) (((n) + 7) / 8 * 8 + 4)
 
@@ -76,7 +82,7 @@ static REAL4 sums_of_energies(const int cells, __global const REAL* energies, __
     const int stride = STRIDE(cells);
     REAL4 sum = 0;
     for (int c = LANE; c < cells; c += TEAM)
-        sum += (REAL4)(energies[c], energies[c + stride], energies[c + 2 * stride], energies[c + 3 * stride]);
+        sum += VECTOR(REAL4)(energies[c], energies[c + stride], energies[c + 2 * stride], energies[c + 3 * stride]);
     return team_sum(sum, parts);
 }
 
@@ -215,7 +221,7 @@ static void substitute(const int panels, __global const int* offsets, __global c
             s2 += vload4(0, A2 + r) * x;
             s3 += vload4(0, A3 + r) * x;
         }
-        const REAL4 mine = (REAL4)(s0.x + s0.y + s0.z + s0.w, s1.x + s1.y + s1.z + s1.w, s2.x + s2.y + s2.z + s2.w,
+        const REAL4 mine = VECTOR(REAL4)(s0.x + s0.y + s0.z + s0.w, s1.x + s1.y + s1.z + s1.w, s2.x + s2.y + s2.z + s2.w,
                                    s3.x + s3.y + s3.z + s3.w);
         const REAL4 below = team_sum(mine, parts);
         if (LANE == 0)

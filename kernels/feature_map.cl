@@ -5,13 +5,29 @@
 //
 // check: -DUNUSED
 
+/// A vector of its lanes: a literal of OpenCL C, a constructor of C++.
+#ifndef VECTOR
+#define VECTOR(T) (T)
+#endif
+
+static float3 first3(const float4 a)
+{
+    return VECTOR(float3)(a.x, a.y, a.z);
+}
+
+/// A position and what is known there.
+static float4 texel_of(const float3 p, const float known)
+{
+    return VECTOR(float4)(p.x, p.y, p.z, known);
+}
+
 /// Weights of the corners of a triangle at p; 6 numbers a triangle.
 static float3 corner_weights(__global const float* restrict t, const float2 p)
 {
     const float2 a = vload2(0, t), b = vload2(1, t) - a, c = vload2(2, t) - a, q = p - a;
     const float det = b.x * c.y - b.y * c.x;
     const float v = (q.x * c.y - q.y * c.x) / det, w = (b.x * q.y - b.y * q.x) / det;
-    return (float3)(1 - v - w, v, w);
+    return VECTOR(float3)(1 - v - w, v, w);
 }
 
 /// Covers the texels whose centre is in a triangle; triangles of tile k are items[starts[k]] .. items[starts[k + 1] - 1].
@@ -23,7 +39,7 @@ __kernel void map_cover(const int width, const int height, const int tile, const
 {
     const int at = (int)get_global_id(0), i = at % width, j = at / width;
     if (j >= height) return;
-    const float2 p = (float2)(i + 0.5f, j + 0.5f);
+    const float2 p = VECTOR(float2)(i + 0.5f, j + 0.5f);
     const int k = j / tile * tiles_across + i / tile;
     float best = -1e-4f;
     float4 texel = (float4)(0);
@@ -34,9 +50,9 @@ __kernel void map_cover(const int width, const int height, const int tile, const
         const float least = fmin(w.x, fmin(w.y, w.z));
         if (!(least > best)) continue;
         best = least;
-        texel.xyz = w.x * vload3(0, positions + 9 * f) + w.y * vload3(1, positions + 9 * f) +
-                    w.z * vload3(2, positions + 9 * f);
-        texel.w = 1;
+        texel = texel_of(w.x * vload3(0, positions + 9 * f) + w.y * vload3(1, positions + 9 * f) +
+                             w.z * vload3(2, positions + 9 * f),
+                         1);
     }
     vstore4(texel, at, texels);
 }
@@ -64,10 +80,10 @@ __kernel void map_continue(const int width, const int height, __global const flo
                 const float4 near = texel_at(from, width, height, i + di, j + dj);
                 if (near.w == 0) continue;
                 const float4 next = texel_at(from, width, height, i + 2 * di, j + 2 * dj);
-                sum += next.w == 0 ? near.xyz : 2 * near.xyz - next.xyz;
+                sum += next.w == 0 ? first3(near) : 2 * first3(near) - first3(next);
                 count += 1;
             }
-        if (count > 0) texel = (float4)(sum / count, -1);
+        if (count > 0) texel = texel_of(sum / count, -1);
     }
     vstore4(texel, at, to);
 }
@@ -75,12 +91,12 @@ __kernel void map_continue(const int width, const int height, __global const flo
 /// Bilinear in the texels around p.
 static float3 sampled(__global const float* restrict texels, const int width, const int height, const float2 p)
 {
-    const float2 q = clamp(p - 0.5f, (float2)(0), (float2)(width - 1, height - 1));
+    const float2 q = clamp(p - 0.5f, (float2)(0), VECTOR(float2)(width - 1, height - 1));
     const int i = min((int)q.x, width - 2), j = min((int)q.y, height - 2);
     const float s = q.x - i, t = q.y - j;
     const int at = j * width + i;
-    return (1 - t) * ((1 - s) * vload4(at, texels).xyz + s * vload4(at + 1, texels).xyz) +
-           t * ((1 - s) * vload4(at + width, texels).xyz + s * vload4(at + width + 1, texels).xyz);
+    return (1 - t) * ((1 - s) * first3(vload4(at, texels)) + s * first3(vload4(at + 1, texels))) +
+           t * ((1 - s) * first3(vload4(at + width, texels)) + s * first3(vload4(at + width + 1, texels)));
 }
 
 /// Positions at points of the plane.
@@ -104,13 +120,13 @@ __kernel void map_roughness(const int width, const int height, const int size, c
 {
     const int n = (int)get_global_id(0);
     if (n >= count) return;
-    const float2 low = (float2)(n % across * size, n / across * size);
+    const float2 low = VECTOR(float2)(n % across * size, n / across * size);
     const float h = 0.5f * size;
     float3 x[9];
     int covered = 0;
     for (int k = 0; k < 9; ++k)
     {
-        const float2 p = low + h * (float2)(k % 3, k / 3);
+        const float2 p = low + h * VECTOR(float2)(k % 3, k / 3);
         x[k] = sampled(texels, width, height, p);
         covered += texel_at(texels, width, height, min((int)p.x, width - 1), min((int)p.y, height - 1)).w == 1;
     }

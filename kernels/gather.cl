@@ -15,6 +15,10 @@
 
 #define CAT_(a, b) a##b
 #define CAT(a, b) CAT_(a, b)
+/// A vector of its lanes: a literal of OpenCL C, a constructor of C++.
+#ifndef VECTOR
+#define VECTOR(T) (T)
+#endif
 
 #if FP64
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -34,8 +38,9 @@
 #define PARTS(T) CAT(T, 8)
 #define LOAD_SLOTS(i) vload8(0, slots + (i))
 #define PART_OF(T, MASK, at, none)                                                                                     \
-    select((PARTS(T))(contributions[(at).s0], contributions[(at).s1], contributions[(at).s2], contributions[(at).s3],  \
-                      contributions[(at).s4], contributions[(at).s5], contributions[(at).s6], contributions[(at).s7]), \
+    select(VECTOR(PARTS(T))(contributions[(at).s0], contributions[(at).s1], contributions[(at).s2],                    \
+                            contributions[(at).s3], contributions[(at).s4], contributions[(at).s5],                    \
+                            contributions[(at).s6], contributions[(at).s7]),                                           \
            (PARTS(T))(0), CAT(convert_, CAT(MASK, 8))(none))
 #define STORE_SUM(sum, i) vstore8(CAT(convert_, CAT(REAL, 8))(sum), 0, out + (i))
 #endif

@@ -34,10 +34,12 @@
 #endif
 
 /// A loop as it stands. On CPUs compilers take longer for copies of it, for vectors and for counts, than these save.
+#ifndef PLAIN
 #if V == 1
 #define PLAIN for
 #else
 #define PLAIN _Pragma("clang loop vectorize(disable) interleave(disable) unroll(disable)") for
+#endif
 #endif
 
 /// Joins `count` of at most K values of each of the items of a group, column by column: one barrier.

@@ -16,7 +16,13 @@
 // check: -DD=2 -DL=256 -DV=1 -DC=32
 // check: -DD=3 -DL=128 -DV=1 -DC=32
 
+#ifndef UNROLLED
 #define UNROLLED _Pragma("unroll") for
+#endif
+/// A vector of its lanes: a literal of OpenCL C, a constructor of C++.
+#ifndef VECTOR
+#define VECTOR(T) (T)
+#endif
 
 #if V == 1
 #define REALV float
@@ -34,11 +40,12 @@
 #define LOAD(p, i) vload16(0, (p) + (i))
 #define STORE(v, p, i) vstore16(v, 0, (p) + (i))
 #define GATHER(p, at)                                                                                                  \
-    (REALV)((p)[(at).s0], (p)[(at).s1], (p)[(at).s2], (p)[(at).s3], (p)[(at).s4], (p)[(at).s5], (p)[(at).s6],          \
+    VECTOR(REALV)                                                                                                      \
+    ((p)[(at).s0], (p)[(at).s1], (p)[(at).s2], (p)[(at).s3], (p)[(at).s4], (p)[(at).s5], (p)[(at).s6],                 \
             (p)[(at).s7], (p)[(at).s8], (p)[(at).s9], (p)[(at).sa], (p)[(at).sb], (p)[(at).sc], (p)[(at).sd],          \
             (p)[(at).se], (p)[(at).sf])
 #define WHERE(test, yes, no) select((REALV)(no), (REALV)(yes), test)
-#define LANES (INTV)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
+#define LANES VECTOR(INTV)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15)
 #define ONE_WHERE(test) (-(test))
 #define FOLD_8(s) ((((s).s0 + (s).s1) + ((s).s2 + (s).s3)) + (((s).s4 + (s).s5) + ((s).s6 + (s).s7)))
 #define FOLD(s) FOLD_8((s).lo + (s).hi)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/dist/entry_points/check.ipp>
-#include <taut/impl/dist/entry_points/session.ipp>
-#include <taut/impl/dist/entry_points/smooth.ipp>
+#include <taut/impl/dist/shape/entry_points/check.ipp>
+#include <taut/impl/dist/shape/entry_points/session.ipp>
+#include <taut/impl/dist/shape/entry_points/smooth.ipp>
 
 namespace taut::dist
 {

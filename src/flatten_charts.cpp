@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/atlas/flatten_charts.ipp>
+#include <taut/impl/charts/atlas/flatten_charts.ipp>

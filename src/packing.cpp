@@ -1,2 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/packing/pack.ipp>
+#include <taut/impl/charts/packing/certificate.ipp>
+#include <taut/impl/charts/packing/pack.ipp>

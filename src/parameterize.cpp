@@ -1,3 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/map/mapped.ipp>
-#include <taut/impl/map/parameterize.ipp>
+#include <taut/impl/core/map/mapped.ipp>
+#include <taut/impl/core/map/parameterize.ipp>

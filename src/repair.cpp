@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/repair/repair_surface.ipp>
+#include <taut/impl/charts/repair/repair_surface.ipp>

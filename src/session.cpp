@@ -1,6 +1,3 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/map/session/incremental_loading.ipp>
-#include <taut/impl/map/session/map_session.ipp>
-#include <taut/impl/map/session/session_run.ipp>
-#include <taut/impl/map/session/shape_setup.ipp>
-#include <taut/impl/objective/running_map.ipp>
+#include <taut/impl/core/map/session/map_session.ipp>
+#include <taut/impl/core/map/session/session.ipp>

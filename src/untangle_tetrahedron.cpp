@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/untangle/untangle_tetrahedron.ipp>
+#include <taut/impl/core/untangle/untangle_tetrahedron.ipp>

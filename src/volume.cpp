@@ -1,2 +1,2 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/objective/volume_objective.ipp>
+#include <taut/impl/core/objective/volume_objective.ipp>

@@ -10,10 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/errors.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/surface_file.hpp>
-#include <taut/impl/mesh/mesh_error.hpp>
+#include <taut/device.hpp>
+#include <taut/errors.hpp>
+#include <taut/surface_file.hpp>
 #include <taut/version.hpp>
 
 #include "commands.hpp"
@@ -119,17 +118,18 @@ int run(int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
     command_line program(
         {.name = "taut",
-         .description = "Injective, low-distortion maps of triangle and tetrahedral meshes, on any OpenCL device.",
+         .description = "Injective, low-distortion maps of triangle and tetrahedral meshes, on GPUs and processors.",
          .version = "taut " TAUT_VERSION_STRING,
          .footer = "exit codes: 0 valid map; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                    "  6 no valid map; 7 proved infeasible; 8 time limit, with a valid map written; 9 device failure;\n"
                    "  10 some jobs of a batch failed;\n"
-                   "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one by then"});
+                   "  130 interrupted (Ctrl-C), 143 terminated, with a valid map written if there was one"});
 
     const auto commands = add_commands(program, launch);
     try
     {
-        if (const auto text = program.parse(argc, argv))
+        if (const auto text = program.parse(
+                argc, argv, [](const std::string& note) { std::cerr << "taut: note: " << printable(note) << '\n'; }))
             return guarded(
                 [&]
                 {

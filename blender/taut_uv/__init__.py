@@ -29,12 +29,14 @@ def library_state() -> str:
     """A line about the package taut."""
     try:
         taut = running.module()
-        devices = [d.name for d in taut.devices() if not d.refusal]
+        usable = [d for d in taut.devices() if not d.refusal]
     except library.Missing as e:
         return str(e)
     except Exception as e:  # of drivers
         return f"taut is loaded, but: {e}"
-    return f"taut {taut.__version__} on {devices[0]}" if devices else "taut is loaded, but there is no OpenCL device"
+    # Unless TAUT_DEVICE says otherwise: a GPU with double precision, else the host, which is the last one.
+    device = next((d for d in usable if d.kind == "GPU" and d.double_precision), usable[-1])
+    return f"taut {taut.__version__} on {device.name}"
 
 
 def register() -> None:
@@ -42,9 +44,12 @@ def register() -> None:
         bpy.utils.register_class(c)
     bpy.types.Scene.taut = bpy.props.PointerProperty(type=properties.TautSettings)
     bpy.types.IMAGE_MT_uvs.append(panel.uv_menu)
+    bpy.app.handlers.load_pre.append(running.drop)
 
 
 def unregister() -> None:
+    bpy.app.handlers.load_pre.remove(running.drop)
+    running.drop()
     bpy.types.IMAGE_MT_uvs.remove(panel.uv_menu)
     del bpy.types.Scene.taut
     for c in reversed(CLASSES):

@@ -26,7 +26,7 @@ class Canvas:
 
     def draw(self, uv) -> None:
         for name, own, corners in self._parts:
-            ob = bpy.data.objects[name]
+            ob = scene.named(name)
             if ob.mode == "EDIT":
                 if name not in self._edited:
                     self._edited[name] = scene.EditedMap(ob)
@@ -40,6 +40,8 @@ class TAUT_OT_live(bpy.types.Operator):
 
     bl_idname, bl_label = "taut.live", "Live"
     bl_options = {"REGISTER", "UNDO", "GRAB_CURSOR", "BLOCKING"}
+
+    _timer = None
 
     shift: FloatVectorProperty(name="Shift", size=2, default=(0, 0), description="By how much the vertices are moved")
 
@@ -92,21 +94,35 @@ class TAUT_OT_live(bpy.types.Operator):
         return context.region.view2d.region_to_view(event.mouse_region_x, event.mouse_region_y)
 
     def modal(self, context, event):
-        if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+        try:
+            if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
+                self.leave(context)
+                self._canvas.draw(self._drag.before())
+                self._drag.close()
+                return {"CANCELLED"}
+            if event.type in {"LEFTMOUSE", "RET", "NUMPAD_ENTER"} and event.value == "PRESS":
+                self.leave(context)
+                return self.conclude(self.shift)
+            if event.type == "MOUSEMOVE":
+                here = self.place(context, event)
+                self.shift = (here[0] - self._from[0], here[1] - self._from[1])
+            elif event.type == "TIMER":
+                self._canvas.draw(self._drag.frame(self.shift))
+        except Exception as e:  # of a device, or of meshes that are gone
             self.leave(context)
-            self._canvas.draw(self._drag.before())
             self._drag.close()
+            self.report({"ERROR"}, f"{self.bl_label}: {e}")
             return {"CANCELLED"}
-        if event.type in {"LEFTMOUSE", "RET", "NUMPAD_ENTER"} and event.value == "PRESS":
-            self.leave(context)
-            return self.conclude(self.shift)
-        if event.type == "MOUSEMOVE":
-            here = self.place(context, event)
-            self.shift = (here[0] - self._from[0], here[1] - self._from[1])
-        elif event.type == "TIMER":
-            self._canvas.draw(self._drag.frame(self.shift))
         return {"RUNNING_MODAL"}
 
+    def cancel(self, context) -> None:
+        """Of Blender, too, which opens another file or closes the window."""
+        self.leave(context)
+        self._drag.close()
+
     def leave(self, context) -> None:
-        context.window_manager.event_timer_remove(self._timer)
-        context.workspace.status_text_set(None)
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)

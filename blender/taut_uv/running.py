@@ -99,10 +99,9 @@ class Command:
         except Exception as e:  # of the library: a device, a full memory
             self.report({"ERROR"}, f"{self.bl_label}: {e}")
             return {"CANCELLED"}
-        if not reader.unchanged():
+        if not scene.write(reader, result):
             self.report({"ERROR"}, "the mesh was changed while the job ran; start it again")
             return {"CANCELLED"}
-        scene.write(reader, result)
         for problem in result.problems[:1]:
             select_problem(reader, problem)
         return told(self, reader, result, self.bl_label)
@@ -120,11 +119,30 @@ class Command:
         except (Trouble, library.Missing) as e:
             self.report({"ERROR"}, str(e))
             return {"CANCELLED"}
+        self._task = current
         self._timer = context.window_manager.event_timer_add(0.1, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
+    def cancel(self, context) -> None:
+        """Of Blender, which opens another file or closes the window: nothing is written."""
+        global current
+        self._task.stop()
+        if current is self._task:
+            current = None
+        self._leave(context)
+
+    def _leave(self, context) -> None:
+        if self._timer is not None:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        if context.workspace is not None:
+            context.workspace.status_text_set(None)
+
     def modal(self, context, event):
+        if current is not self._task:  # it was dropped
+            self.cancel(context)
+            return {"CANCELLED"}
         if event.type == "ESC" and event.value == "PRESS" and not current.done:
             current.stop()
             return {"RUNNING_MODAL"}
@@ -142,9 +160,7 @@ class Command:
         """Of a job that is done."""
         global current
         task, current = current, None
-        if self._timer is not None:
-            context.window_manager.event_timer_remove(self._timer)
-        context.workspace.status_text_set(None)
+        self._leave(context)
         redraw(context)
         try:
             return self.conclude(context, self._reader, task)
@@ -153,13 +169,22 @@ class Command:
             return {"CANCELLED"}
 
 
+@bpy.app.handlers.persistent
+def drop(*_) -> None:
+    """Ends the job that runs: before another file is opened, whose meshes are others, and as the add-on is disabled."""
+    global current
+    if current is not None:
+        current.stop()
+        current = None
+
+
 def select_problem(reader, problem) -> None:
     """Selects the faces that a problem names, of objects that are edited."""
     if len(problem.faces) == 0:
         return
     named = dict(reader.surface.named("face", problem.faces))
     for name in reader.names:
-        ob = bpy.data.objects.get(name)
+        ob = scene.named(name)
         if ob is not None and ob.mode == "EDIT":
             faces = np.zeros(len(ob.data.polygons), bool)
             faces[named.get(name, [])] = True

@@ -11,12 +11,7 @@ from .core.messages import Trouble
 from .core.polygons import without_flat
 from .core.surface import Surface, joined
 from .core.work import Result
-
-
-def _get(collection, name: str, kind, *shape) -> np.ndarray:
-    values = np.empty(len(collection) * int(np.prod(shape or (1,))), dtype=kind)
-    collection.foreach_get(name, values)
-    return values.reshape(len(collection), *shape)
+from .reading import EditedMap, digest, edited_map, flags, get, painted
 
 
 def objects(context) -> list:
@@ -24,12 +19,17 @@ def objects(context) -> list:
     found = context.objects_in_mode if context.mode == "EDIT_MESH" else context.selected_objects
     meshes, seen = [], set()
     for ob in found:
-        if ob.type == "MESH" and ob.data.name not in seen and (ob.mode == "EDIT" or len(ob.data.polygons)):
-            seen.add(ob.data.name)
+        if ob.type == "MESH" and ob.data not in seen and (ob.mode == "EDIT" or len(ob.data.polygons)):
+            seen.add(ob.data)
             meshes.append(ob)
     if not meshes:
         raise Trouble("no mesh with faces is selected; select one")
     return meshes
+
+
+def named(name: str):
+    """The object of this file with that name, or None; those of other files that are linked may have the same."""
+    return bpy.data.objects.get((name, None))
 
 
 def by_uv_selection(context) -> bool:
@@ -48,9 +48,12 @@ class Reader:
 
     def __init__(self, obs: list, *, new_map: bool = False, uv_selection: bool = False, weights: str = "") -> None:
         self.names = [ob.name for ob in obs]
-        self._uv_selection = uv_selection
+        self._uv_selection, self._weights = uv_selection, weights
         parts, grabbed, known = [], [], False
         for ob in obs:
+            if ob.library is not None or ob.data.library is not None:
+                what = "is linked from another file; make it local (Object > Relations), or deselect it"
+                raise Trouble(f"{ob.name}: {what}")
             if ob.mode == "EDIT":
                 ob.update_from_editmode()
             layer = ob.data.uv_layers.active
@@ -69,28 +72,29 @@ class Reader:
             raise Trouble(f'no selected object has a vertex group "{weights}"; paint one, or clear Weights')
         self.surface = joined(parts)
         self.grabbed = np.concatenate(grabbed)
+        self._digests = [digest(ob, weights) for ob in obs]
 
     def _read(self, ob, layer, group) -> tuple[Surface, np.ndarray]:
         mesh = ob.data
         mesh.calc_loop_triangles()
-        vertex = _get(mesh.loops, "vertex_index", np.int32).astype(np.int64)
-        start = _get(mesh.polygons, "loop_start", np.int32).astype(np.int64)
-        total = _get(mesh.polygons, "loop_total", np.int32).astype(np.int64)
+        vertex = get(mesh.loops, "vertex_index", np.int32).astype(np.int64)
+        start = get(mesh.polygons, "loop_start", np.int32).astype(np.int64)
+        total = get(mesh.polygons, "loop_total", np.int32).astype(np.int64)
         face = np.repeat(np.arange(len(start)), total)
         following = np.arange(len(vertex)) + 1
         following[start + total - 1] = start
         matrix = np.array(ob.matrix_world, dtype=np.float64)
-        V = _get(mesh.vertices, "co", np.float32, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
-        visible = ~_get(mesh.polygons, "hide", bool)
+        V = get(mesh.vertices, "co", np.float32, 3).astype(np.float64) @ matrix[:3, :3].T + matrix[:3, 3]
+        visible = ~get(mesh.polygons, "hide", bool)
         edit = ob.mode == "EDIT"
-        chosen = visible & (_get(mesh.polygons, "select", bool) if edit else True)
-        line = _get(mesh.edges, "select", bool)
-        edge = _get(mesh.loops, "edge_index", np.int32).astype(np.int64)
-        grabbed = _get(mesh.vertices, "select", bool)[vertex] & visible[face]
+        chosen = visible & (get(mesh.polygons, "select", bool) if edit else True)
+        line = get(mesh.edges, "select", bool)
+        edge = get(mesh.loops, "edge_index", np.int32).astype(np.int64)
+        grabbed = get(mesh.vertices, "select", bool)[vertex] & visible[face]
         if edit:
-            uv, pinned, picked, along = _edited_map(ob, len(vertex))
+            uv, pinned, picked, along = edited_map(ob, len(vertex))
         else:
-            uv, pinned = _get(layer.uv, "vector", np.float32, 2), _flags(layer.pin, len(vertex))
+            uv, pinned = get(layer.uv, "vector", np.float32, 2), flags(layer.pin, len(vertex))
         if self._uv_selection and edit:
             picked, along = picked & chosen[face], along & chosen[face]
             all_picked = np.ones(len(start), bool)
@@ -98,9 +102,9 @@ class Reader:
             chosen, grabbed = chosen & all_picked, picked
             line = np.zeros(len(mesh.edges), bool)
             line[edge[along]] = True
-        weight = np.ones(len(V)) if group is None else _painted(mesh, group.index)
-        triangles = _get(mesh.loop_triangles, "loops", np.int32, 3).astype(np.int64)
-        triangle_face = _get(mesh.loop_triangles, "polygon_index", np.int32).astype(np.int64)
+        weight = np.ones(len(V)) if group is None else painted(mesh, group.index)
+        triangles = get(mesh.loop_triangles, "loops", np.int32, 3).astype(np.int64)
+        triangle_face = get(mesh.loop_triangles, "polygon_index", np.int32).astype(np.int64)
         surface = Surface(
             V=V,
             vertex=vertex,
@@ -110,8 +114,8 @@ class Reader:
             triangles=without_flat(V, vertex, triangles, triangle_face),
             drawn=triangles,
             triangle_face=triangle_face,
-            edges=_get(mesh.edges, "vertices", np.int32, 2).astype(np.int64),
-            seam=_get(mesh.edges, "use_seam", bool),
+            edges=get(mesh.edges, "vertices", np.int32, 2).astype(np.int64),
+            seam=get(mesh.edges, "use_seam", bool),
             uv=uv.astype(np.float64),
             pinned=pinned,
             chosen=chosen,
@@ -122,55 +126,20 @@ class Reader:
         return surface, grabbed
 
     def unchanged(self) -> bool:
-        """Whether the objects are there, with as many elements as they had."""
-        s = self.surface
-        for k, name in enumerate(self.names):
-            ob = bpy.data.objects.get(name)
-            if ob is None or ob.data.uv_layers.active is None:
-                return False
-            if ob.mode == "EDIT":
-                ob.update_from_editmode()
-            if (
-                len(ob.data.loops) != s.first_corner[k + 1] - s.first_corner[k]
-                or len(ob.data.edges) != s.first_edge[k + 1] - s.first_edge[k]
-            ):
-                return False
-        return True
+        """Whether the objects are there, and all that was read of them, but for what is selected, is as it was."""
+        obs = [named(name) for name in self.names]
+        return all(ob is not None and ob.type == "MESH" and digest(ob, self._weights) == before
+                   for ob, before in zip(obs, self._digests))
 
 
-def _flags(collection, count: int) -> np.ndarray:
-    """Flags of a collection that is empty where none is set."""
-    return _get(collection, "value", bool) if len(collection) == count else np.zeros(count, bool)
-
-
-def _edited_map(ob, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Of a mesh that is edited: coordinates, pins, and the UV editor's selection of corners and of edges from them."""
-    edited = EditedMap(ob)
-    loops, layer = edited.corners, edited.layer
-    uv, flags = np.empty((count, 2), np.float32), np.zeros((3, count), bool)
-    own = count > 0 and hasattr(loops[0], "uv_select_vert")  # from Blender 5.0 on
-    for i, loop in enumerate(loops):
-        at = loop[layer]
-        uv[i] = at.uv
-        picked = (loop.uv_select_vert, loop.uv_select_edge) if own else (at.select, at.select_edge)
-        flags[:, i] = at.pin_uv, *picked
-    return uv, flags[0], flags[1], flags[2]
-
-
-def _painted(mesh, index: int) -> np.ndarray:
-    weight = np.zeros(len(mesh.vertices))
-    for v in mesh.vertices:
-        for g in v.groups:
-            if g.group == index:
-                weight[v.index] = g.weight
-    return weight
-
-
-def write(reader: Reader, result: Result) -> None:
-    """Writes coordinates that changed, seams and selections."""
+def write(reader: Reader, result: Result) -> bool:
+    """Writes coordinates that changed, seams and selections. Objects that are no longer as they were read are left
+    alone, all of them: False."""
+    if not reader.unchanged():
+        return False
     s = reader.surface
     for k, name in enumerate(reader.names):
-        ob = bpy.data.objects[name]
+        ob = named(name)
         corners = slice(s.first_corner[k], s.first_corner[k + 1])
         edges = slice(s.first_edge[k], s.first_edge[k + 1])
         faces = slice(s.first_face[k], s.first_face[k + 1])
@@ -186,6 +155,7 @@ def write(reader: Reader, result: Result) -> None:
             _write_mesh(ob.data, result.uv[corners], changed, result.seam[edges] if seam is not None else None)
             if result.selected is not None:
                 _select(ob.data, result.selected[faces])
+    return True
 
 
 def write_map(mesh, corners, uv) -> None:
@@ -194,7 +164,7 @@ def write_map(mesh, corners, uv) -> None:
     By its attribute: undo does not see what is written to `layer.uv` all at once (Blender 4.5).
     """
     data = mesh.attributes[mesh.uv_layers.active.name].data
-    whole = _get(data, "vector", np.float32, 2)
+    whole = get(data, "vector", np.float32, 2)
     whole[corners] = uv
     data.foreach_set("vector", whole.reshape(-1))
     mesh.update()
@@ -206,25 +176,6 @@ def _write_mesh(mesh, uv, changed, seam) -> None:
     if seam is not None:
         mesh.edges.foreach_set("use_seam", np.ascontiguousarray(seam))
     mesh.update()
-
-
-class EditedMap:
-    """The UV map of a mesh that is edited: good as long as nothing else edits the mesh."""
-
-    def __init__(self, ob) -> None:
-        self._mesh = ob.data
-        self._bm = bmesh.from_edit_mesh(ob.data)  # its corners live as long as it does
-        self.layer = self._bm.loops.layers.uv.verify()
-        self.corners = [loop for face in self._bm.faces for loop in face.loops]
-
-    def write(self, corners, uv) -> None:
-        """Writes coordinates of some corners."""
-        for i, place in zip(corners, uv.tolist()):
-            self.corners[i][self.layer].uv = place
-        self.shown()
-
-    def shown(self) -> None:
-        bmesh.update_edit_mesh(self._mesh, loop_triangles=False, destructive=False)
 
 
 def _write_edited(ob, uv, changed, seam, changed_edges) -> None:
@@ -253,8 +204,8 @@ def select_edited(ob, faces: np.ndarray) -> None:
 
 def _select(mesh, faces: np.ndarray) -> None:
     bpy.context.tool_settings.mesh_select_mode = (False, False, True)
-    vertex, edge = _get(mesh.loops, "vertex_index", np.int32), _get(mesh.loops, "edge_index", np.int32)
-    total = _get(mesh.polygons, "loop_total", np.int32)
+    vertex, edge = get(mesh.loops, "vertex_index", np.int32), get(mesh.loops, "edge_index", np.int32)
+    total = get(mesh.polygons, "loop_total", np.int32)
     of_corner = np.repeat(faces, total)
     vertices, edges = np.zeros(len(mesh.vertices), bool), np.zeros(len(mesh.edges), bool)
     vertices[vertex[of_corner]] = True

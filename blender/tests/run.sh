@@ -9,8 +9,10 @@ shift
 "$python" -c "import bpy, pytest" 2>/dev/null || { echo "skipped: $python cannot import bpy and pytest"; exit 77; }
 "$python" -c "import taut; taut.__version__" || { echo "skipped: taut was built for another Python"; exit 77; }
 cd "$(dirname "$0")"
-# Blender writes settings nowhere but here.
-BLENDER_USER_RESOURCES=$(mktemp -d)
-export BLENDER_USER_RESOURCES
-trap 'rm -rf "$BLENDER_USER_RESOURCES"' EXIT
+# Blender and tests write settings and temporary files nowhere but here.
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+trap 'exit 1' HUP INT TERM
+export BLENDER_USER_RESOURCES="$folder/settings" TMPDIR="$folder/temporary"
+mkdir "$BLENDER_USER_RESOURCES" "$TMPDIR"
 "$python" -m pytest -q -p no:cacheprovider --rootdir=. "$@"

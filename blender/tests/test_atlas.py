@@ -6,6 +6,9 @@ import judge
 import numpy as np
 import pytest
 from scenes import choose, flat, hill, made, pin, pin_corners, primitive, tube, tube_seams, uv_of
+from taut_uv import running, scene
+from taut_uv.core.atlas import atlas
+from taut_uv.core.unwrap import unwrap
 
 
 def three():
@@ -191,3 +194,25 @@ def test_a_face_that_repair_divides_is_named_and_lies_over_no_other():
     ob = made("Fold", V, [(0, 1, 2, 3), (0, 1, 2, 4), (1, 5, 6, 2)])
     bpy.ops.taut.atlas()
     assert not judge.overlaps(judge.Read(ob))
+
+
+def test_copies_at_one_place_are_objects_of_their_own():
+    one, other = hill(6, 0.4, name="One"), hill(6, 0.4, name="Other")
+    choose(one, other)
+    bpy.ops.taut.atlas()
+    reads = judge.Read(one), judge.Read(other)
+    assert all((judge.signs(r.tri()) > 0).all() for r in reads) and not judge.overlaps(*reads)
+
+
+def test_options_without_effect_are_told():
+    ob = hill(6, 0.4)
+    reader = scene.Reader(scene.objects(bpy.context), new_map=True)
+    notes = atlas(running.module(), reader.surface, charts="keep", prefer="one", max_distortion=5).notes
+    assert {f"{name} has no effect on charts that are kept" for name in ("Prefer", "Max Distortion")} <= {*notes}
+    notes = unwrap(running.module(), reader.surface, pack=False, rotate=False).notes
+    assert "Rotate has no effect without Pack" in notes
+    for command, given, words in [("atlas", {"max_distortion": 3}, "Max Distortion is 3, but must be above 4"),
+                                  ("check", {"flips": False, "overlaps": False}, "nothing to look for")]:
+        with pytest.raises(RuntimeError, match=words):
+            getattr(bpy.ops.taut, command)(**given)
+    assert ob.data.uv_layers.active is not None

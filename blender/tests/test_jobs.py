@@ -4,14 +4,18 @@
 import time
 import types
 
+import bmesh
 import bpy
 import judge
 import numpy as np
 import pytest
+import taut_uv
 from scenes import choose, corners_of, flat, hill, made, mode, primitive, select, tube, tube_seams, uv_of
 from taut_uv import operators, running, scene
 from taut_uv.core import library
 from taut_uv.core.atlas import atlas
+from taut_uv.core.check import overlapping_faces
+from taut_uv.core.surface import from_polygons
 from taut_uv.core.unwrap import unwrap
 from taut_uv.core.work import Task
 
@@ -161,6 +165,34 @@ def test_check_of_many_random_triangles_agrees_with_exact_arithmetic():
     assert set(np.flatnonzero(judge.Read(ob).selected)) == over
 
 
+def test_faces_that_all_lie_on_each_other_and_sizes_far_apart_take_no_longer():
+    n = 60_000
+    corner = np.array([[0, 0], [1, 0], [0, 1]])
+    s = from_polygons(np.zeros((3 * n, 3)), np.arange(3 * n).reshape(n, 3).tolist(), uv=np.tile(corner, (n, 1)))
+    began = time.monotonic()
+    assert len(overlapping_faces(s)) == n and time.monotonic() - began < 30
+    # Small ones in rows, apart, with large ones beside them.
+    at = np.c_[np.arange(n) % 300, np.arange(n) // 300] / 1024
+    s.uv = (at[:, None] + corner / 2048).reshape(-1, 2)
+    s.uv[-6:-3], s.uv[-3:] = [[9, 9], [1e30, 9], [9, 1e30]], [[-1, -1], [0.9, -1], [-1, 0.9]]
+    assert len(overlapping_faces(s)) == 0
+    s.uv[-3:] = [[-9, -9], [10.3 / 1024, -9], [10.3 / 1024, 10]]  # over the first ten columns
+    expected = np.flatnonzero(np.append(over(s.uv[:-6], s.uv[-3:]), [False, True]))
+    assert (overlapping_faces(s) == expected).all() and len(expected) > 2000
+
+
+def over(small, large):
+    """Which triangles of a list overlap one that is counter-clockwise."""
+    corners = small.reshape(-1, 3, 2)
+    hit = np.ones(len(corners), bool)
+    large = np.broadcast_to(large, corners.shape)
+    for one, other in ((large, corners), (corners, large)):
+        for k in range(3):
+            d, e = one[:, (k + 1) % 3] - one[:, k], other - one[:, [k]]
+            hit &= (d[:, None, 0] * e[:, :, 1] - d[:, None, 1] * e[:, :, 0] > 0).any(1)
+    return hit
+
+
 class Modal(running.Command):
     """An operator without a window: what Blender would do is written down."""
 
@@ -223,14 +255,121 @@ def test_escape_and_the_stop_button_keep_what_is_done(by):
     assert done.sum() < len(done) and (judge.signs(r.tri()[np.isin(r.of, np.flatnonzero(done))]) > 0).all()
 
 
-def test_a_mesh_that_was_changed_meanwhile_is_left_alone():
-    ob = sheets(30)
+def sort_faces(ob):
+    mode("EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.sort_elements(type="RANDOMIZE", elements={"FACE"}, seed=3)
+    mode("OBJECT")
+
+
+def rotate_edges(ob):
+    bm = bmesh.new()
+    bm.from_mesh(ob.data)
+    bmesh.ops.rotate_edges(bm, edges=[e for e in bm.edges if len(e.link_faces) == 2][::7])
+    bm.to_mesh(ob.data)
+    bm.free()
+
+
+def add_loose_edge(ob):
+    ob.data.vertices.add(1)
+    ob.data.edges.add(1)
+
+
+def pin(ob):
+    layer = ob.data.uv_layers.active
+    layer.pin[0].value = True
+    layer.uv[0].vector = (5, 5)
+
+
+def paint(ob):
+    ob.vertex_groups["Paint"].add([0], 0.5, "REPLACE")
+
+
+def other_map(ob):
+    ob.data.uv_layers.active = ob.data.uv_layers.new(name="Other")
+
+
+CHANGES = {
+    "faces in another order": sort_faces,
+    "edges rotated": rotate_edges,
+    "an edge more": add_loose_edge,
+    "a vertex moved": lambda ob: setattr(ob.data.vertices[3].co, "z", 0.7),
+    "a UV pinned and moved": pin,
+    "a UV moved": lambda ob: setattr(ob.data.uv_layers.active.uv[7].vector, "x", 9),
+    "a seam marked": lambda ob: setattr(ob.data.edges[5], "use_seam", True),
+    "a face hidden": lambda ob: setattr(ob.data.polygons[2], "hide", True),
+    "weights painted": paint,
+    "another map": other_map,
+    "stretched": lambda ob: (setattr(ob, "scale", (3, 1, 1)), bpy.context.view_layer.update()),
+    "renamed": lambda ob: setattr(ob, "name", "Another"),
+}
+
+
+@pytest.mark.parametrize("command", [unwrap, atlas])
+@pytest.mark.parametrize("change", CHANGES)
+def test_a_mesh_that_was_changed_meanwhile_is_left_alone(change, command, monkeypatch):
+    ob = hill(6, 0.4)
+    flat(ob)
+    ob.vertex_groups.new(name="Paint").add(range(20), 0.7, "REPLACE")
+    op = Modal()
+    op.weights = "Paint"
+    monkeypatch.setattr(Modal, "command", staticmethod(command))
+    op.launch(op.context)
+    wait(lambda: running.current.done)
+    CHANGES[change](ob)
+    before, seams = uv_of(ob).copy(), judge.Read(ob).seams
+    assert op.event("TIMER") == {"CANCELLED"} and "changed while the job ran" in op.said[-1][1]
+    assert (uv_of(ob) == before).all() and judge.Read(ob).seams == seams
+
+
+def test_what_does_not_change_a_map_may_change_meanwhile():
+    ob = hill(6, 0.4)
     op = Modal()
     op.launch(op.context)
     wait(lambda: running.current.done)
-    ob.data.vertices.add(1)
-    ob.data.edges.add(1)
-    assert op.event("TIMER") == {"CANCELLED"} and "changed while the job ran" in op.said[-1][1]
+    ob.location, ob.data.polygons[3].select = (1, 2, 3), False
+    bpy.context.view_layer.update()
+    assert op.event("TIMER") == {"FINISHED"} and judge.flips(judge.Read(ob)) == 0
+
+
+@pytest.mark.parametrize("way", ["another file", "closed window", "add-on disabled"])
+def test_a_job_that_is_dropped_lets_others_begin(way):
+    sheets(50)
+    op = Modal()
+    op.launch(op.context)
+    task = running.current
+    if way == "another file":
+        bpy.ops.wm.read_homefile(use_empty=True)
+    elif way == "closed window":
+        op.cancel(op.context)
+    else:
+        taut_uv.unregister()
+        taut_uv.register()
+    assert task.stopped and running.current is None
+    ob = hill(6)
+    assert bpy.ops.taut.unwrap.poll() and op.event("TIMER") == {"CANCELLED"}
+    assert bpy.ops.taut.unwrap() == {"FINISHED"} and judge.flips(judge.Read(ob)) == 0
+
+
+def test_linked_meshes_of_one_name_are_several_and_are_left_alone(tmp_path):
+    for k in (3, 5):
+        ob = hill(k, name="Hill")
+        bpy.data.libraries.write(str(tmp_path / f"{k}.blend"), {ob}, fake_user=True)
+        bpy.data.objects.remove(ob)
+        bpy.data.meshes.remove(bpy.data.meshes["Hill"])
+    found = []
+    for k in (3, 5):
+        with bpy.data.libraries.load(str(tmp_path / f"{k}.blend"), link=True) as (_, into):
+            into.objects = ["Hill"]
+        found += into.objects
+    for ob in found:
+        bpy.context.collection.objects.link(ob)
+    choose(*found)
+    assert sorted(len(ob.data.polygons) for ob in scene.objects(bpy.context)) == [9, 25]
+    with pytest.raises(RuntimeError, match="Hill: is linked from another file; make it local"):
+        bpy.ops.taut.unwrap()
+    for ob in found:
+        bpy.data.objects.remove(ob)
 
 
 def test_a_missing_package_is_an_error_with_a_remedy(monkeypatch):

@@ -127,7 +127,7 @@ def write(folder):
         for name, meaning in re.findall(r"^\| `([\w:]+)` \| (.*?) \|$", section, re.M):
             out += [f"## `{name}`", ""]
             said = " ".join(every[name][0][0]).lower() if name in every else ""
-            if not said.startswith(meaning.lower()):
+            if not said.startswith(meaning.lower().replace("\\|", "|")):
                 out += [meaning[:1].upper() + meaning[1:] + ".", ""]
             for comment, shown in every.get(name, []):
                 out += [prose(comment), "", "```cpp", shown, "```", ""]

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#include <taut/impl/enter.inl>
+#ifndef TAUT_EIGEN_HPP
+#define TAUT_EIGEN_HPP
 
 #include <array>
 #include <cstddef>
@@ -10,18 +12,17 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/mesh/arrays.hpp>
-#include <taut/impl/sparse/block_rows.hpp>
+#include <taut/arrays.hpp>
+#include <taut/constraints.hpp>
+#include <taut/impl/core/mesh/arrays.hpp>
 
-/// Meshes, maps, constraints and Hessians as matrices of Eigen, in the conventions of libigl: V has a vertex a row (2
-/// or 3 columns, float or double), F a triangle and T a tetrahedron (integers of any width), by rows or by columns.
-/// Whatever has its numbers in memory is read where it lies: matrices, Map, Ref, blocks. An optional header: taut.hpp
-/// does not include it, as it needs Eigen.
+/// Meshes, maps, constraints and Hessians as Eigen matrices, in the conventions of libigl. A row of V is a vertex (2 or
+/// 3 columns, float or double), a row of F a triangle, a row of T a tetrahedron (any integer type); row- or
+/// column-major. Matrices, Map, Ref and blocks are read without a copy. Needs Eigen, so taut.hpp does not include it.
 namespace taut::impl
 {
 
-/// The rows of a matrix where they lie; name: of the matrix in messages.
+/// View of the rows of a matrix; name: of the matrix in messages.
 template <int K, class Matrix>
 array_view<const typename Matrix::Scalar, K> rows_of(const Eigen::DenseBase<Matrix>& matrix, const char* name)
 {
@@ -65,6 +66,9 @@ using packed_rows = Eigen::Matrix<T, Eigen::Dynamic, K, Eigen::RowMajor>;
 namespace taut
 {
 
+template <int D>
+struct block_rows;
+
 /// Surface mesh of V (#V by 2 or 3 points) and F (#F by 3 vertex indices). Throws parameter_error for another number of
 /// columns, mesh_error as the constructor of mesh.
 template <class Points, class Cells>
@@ -87,8 +91,8 @@ std::vector<vec<D>> points_from(const Eigen::DenseBase<Points>& X)
     return impl::rows_of<D>(X, "X").points();
 }
 
-/// Points as a matrix with one row per point. It maps the memory of x without a copy: assign it to a matrix of your
-/// own,
+/// Points as a matrix with one row per point. It maps the memory of x without a copy: assign it to your own
+/// matrix,
 ///
 ///     Eigen::MatrixXd uv = taut::matrix_of(result.uv);
 ///     mine.leftCols(2) = taut::matrix_of(result.uv).cast<float>();
@@ -119,14 +123,14 @@ void matrix_of(const std::vector<std::array<idx, K>>&&) = delete;
 /// Numbering of the coordinates of n points in D dimensions as unknowns.
 enum class unknown_order
 {
-    by_point,     ///< coordinate k of point v is D v + k: a matrix by rows, read as one vector
-    by_coordinate ///< it is n k + v: a matrix by columns
+    by_point,     ///< coordinate k of point v is D v + k: a row-major matrix, read as one vector
+    by_coordinate ///< it is n k + v: a column-major matrix
 };
 
-/// A symmetric matrix of blocks, as map_evaluator::hessian gives it, for Eigen's solvers. Throws size_error where its
+/// A symmetric block matrix, such as map_evaluator::hessian, for Eigen's solvers. Throws size_error if its
 /// entries exceed 32-bit numbering.
 template <int D>
-Eigen::SparseMatrix<double> matrix_of(const impl::block_rows<D>& H, unknown_order order = unknown_order::by_point)
+Eigen::SparseMatrix<double> matrix_of(const block_rows<D>& H, unknown_order order = unknown_order::by_point)
 {
     constexpr auto limit = static_cast<std::size_t>(std::numeric_limits<int>::max());
     if (H.blocks.size() > limit / (D * D)) throw size_error("H", "more entries than 32-bit numbers count");
@@ -177,3 +181,6 @@ template <class Element, class... Rows>
 void constraints_from(mesh<Element>&&, const Rows&...) = delete; // constraints refer to their mesh
 
 } // namespace taut
+
+#endif
+#include <taut/impl/leave.inl>

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#include <taut/impl/enter.inl>
+#if TAUT_OPEN == 1 // the parts that its calls need
+#define TAUT_PART_VOLUME_FILE
+#endif
+#ifndef TAUT_READ_HPP
+#define TAUT_READ_HPP
 
 /// Reads surfaces, volumes, pins and problems.
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/io/cut_seams.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/io/prob.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_obj.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/volume_file.hpp>
+
+#endif
+#include <taut/impl/leave.inl>

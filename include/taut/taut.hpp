@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
-#pragma once
+#include <taut/impl/enter.inl>
+#if TAUT_OPEN == 1 // the parts that its calls need
+#define TAUT_PART_DEFORM
+#define TAUT_PART_VOLUME_FILE
+#endif
+#ifndef TAUT_TAUT_HPP
+#define TAUT_TAUT_HPP
 
-/// Maps of meshes: all that reads, constrains, makes, judges and writes them. What needs other libraries or is a
-/// subject of its own has a header beside this one: <taut/atlas.hpp>, <taut/pack.hpp>, <taut/repair.hpp>,
+/// Maps of meshes: reading, constraints, maps, certificates, measures, writing. Headers that need other libraries or
+/// have their own subject are separate: <taut/atlas.hpp>, <taut/pack.hpp>, <taut/repair.hpp>,
 /// <taut/paste.hpp>, <taut/gltf.hpp>, <taut/eigen.hpp>, <taut/solve.hpp>, <taut/kernel.hpp>.
 #include <taut/certify.hpp>
 #include <taut/constraints.hpp>
@@ -21,3 +27,6 @@
 #include <taut/version.hpp>
 #include <taut/volume_file.hpp>
 #include <taut/write.hpp>
+
+#endif
+#include <taut/impl/leave.inl>

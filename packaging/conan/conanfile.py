@@ -11,7 +11,7 @@ required_conan_version = ">=2.0"
 
 class TautConan(ConanFile):
     name = "taut"
-    description = "Injective, low-distortion maps of triangle and tetrahedral meshes on any OpenCL device"
+    description = "Injective, low-distortion maps of triangle and tetrahedral meshes on GPUs and processors"
     license = "MIT"
     homepage = "https://taut.example"
     topics = ("mesh", "parameterization", "uv", "atlas", "opencl", "header-only")
@@ -27,7 +27,6 @@ class TautConan(ConanFile):
         self.requires("boost/[>=1.71 <2]", options={"header_only": True})
         self.requires("glm/[>=0.9.9 <2]")
         self.requires("opencl-headers/2023.12.14")
-        self.requires("opencl-icd-loader/2023.12.14")
         if self.options.with_gltf:
             self.requires("nlohmann_json/[>=3.11 <4]")
         if self.options.with_compression:  # of VTU files

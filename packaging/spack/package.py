@@ -3,7 +3,7 @@ from spack.package import *
 
 
 class Taut(CMakePackage):
-    """Injective, low-distortion maps of triangle and tetrahedral meshes on any OpenCL device."""
+    """Injective, low-distortion maps of triangle and tetrahedral meshes on GPUs and processors."""
 
     homepage = "https://taut.example"
     url = "https://taut.example/releases/taut-1.0.0-rc.1.tar.gz"

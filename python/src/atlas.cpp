@@ -33,6 +33,7 @@ struct atlas_job
     std::vector<std::array<idx, 2>> seam_edges, weighted_edges;
     std::vector<double> edge_weights;           ///< of weighted_edges
     std::vector<idx> parts, polygons;           ///< labels of triangles, or none
+    std::vector<idx> bodies;                    ///< labels of vertices, or none
     std::vector<std::array<vec2, 3>> corner_uv; ///< of triangles, or none
     std::vector<char> pinned;                   ///< triangles, or none
     std::vector<double> densities;              ///< of triangles, or none
@@ -61,6 +62,7 @@ struct atlas_job
         {
             repair_params how;
             how.polygons = polygons;
+            how.bodies = bodies;
             if (weld) how.weld_tolerance = repair_params::usual_tolerance(points, triangles);
             repaired.emplace(repair_surface(points, triangles, how));
         }
@@ -234,6 +236,7 @@ nb::object make(const array& V, const array& F, const nb::dict& keywords, const 
     if (const auto a = given.rows("edge_weights")) job->edge_weights = numbers_of(*a);
     if (const auto a = given.rows("parts")) job->parts = ids_of(*a);
     if (const auto a = given.rows("polygons")) job->polygons = ids_of(*a);
+    if (const auto a = given.rows("bodies")) job->bodies = ids_of(*a);
     if (const auto a = given.rows("corner_uv"))
     {
         const auto corners = points_of<2>(*a, "corner_uv"); // three rows a triangle

@@ -37,7 +37,9 @@ nb::tuple bake_image(const array& image, const array& old_uv, const array& new_u
     given.read("new_height", params.height);
     given.read_word("filter", params.filter,
                     {{"bilinear", texture::filter::bilinear}, {"nearest", texture::filter::nearest}});
-    given.read_word("wrap", params.wrap, {{"repeat", texture::wrap::repeat}, {"clamp", texture::wrap::clamp}});
+    given.read_word(
+        "wrap", params.wrap,
+        {{"repeat", texture::wrap::repeat}, {"clamp", texture::wrap::clamp}, {"mirror", texture::wrap::mirror}});
     given.read("samples", params.samples);
     given.read("gutter", params.gutter);
     std::string device;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Energy, gradient and Hessian of maps as numbers.
-#include <taut/impl/objective/volume_objective.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
 #include <taut/solve.hpp>
 
 #include "bindings.hpp"
@@ -24,7 +24,7 @@ public:
         : queue_(borrow_queue(options(keywords).get<std::string>("device", "")))
     {
         const options given(keywords);
-        any_energy energy = impl::default_energy();
+        any_energy energy = default_energy();
         given.read("energy", energy);
         if (const auto a = given.rows("parameters")) energy = energy.with_parameters(numbers_of(*a));
         auto weights = energy::weighting::measure;
@@ -64,7 +64,7 @@ public:
     nb::tuple hessian(const array& x, bool projected)
     {
         const auto points = points_of<D>(x, "x");
-        impl::block_rows<D> found;
+        block_rows<D> found;
         {
             nb::gil_scoped_release unlocked;
             found = evaluator_->hessian(points, projected ? definiteness::projected : definiteness::indefinite);

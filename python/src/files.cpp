@@ -6,9 +6,12 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include <taut/files.hpp>
 #include <taut/gltf.hpp>
+#include <taut/impl/core/compute/program/private_folder.hpp>
 #include <taut/read.hpp>
 #include <taut/write.hpp>
 
@@ -113,10 +116,18 @@ corner_uv corners_of(const array& rows, std::size_t triangles)
     return corners;
 }
 
+/// What f returns, for other threads to go on meanwhile: one may be the reader of a pipe that f writes.
+template <class F>
+auto unlocked(F&& f)
+{
+    const nb::gil_scoped_release released;
+    return f();
+}
+
 /// The file like `like` with texture coordinates by corners, equal ones shared.
 void write_surface_uv(const std::string& path, const std::string& like, const array& rows)
 {
-    const auto file = io::read_surface_soup(like);
+    const auto file = unlocked([&] { return io::read_surface_soup(like); });
     const auto corners = corners_of(rows, file.triangles.size());
     std::map<std::pair<double, double>, idx> known;
     std::vector<vec2> uv;
@@ -130,16 +141,20 @@ void write_surface_uv(const std::string& path, const std::string& like, const ar
             if (fresh) uv.push_back(x);
             texcoords[file.faces.corner(c, k)] = at->second;
         }
-    io::write_obj(std::filesystem::path(path), file, std::span<const idx>(texcoords), std::span<const vec2>(uv));
+    unlocked(
+        [&] {
+            io::write_obj(std::filesystem::path(path), file, std::span<const idx>(texcoords),
+                          std::span<const vec2>(uv));
+        });
 }
 
 void write_model_uv(const std::string& path, const std::string& like, const array& rows, int set)
 {
-    const auto model = io::read_gltf(like, set);
+    const auto model = unlocked([&] { return io::read_gltf(like, set); });
     auto corners = corners_of(rows, model.triangles.size());
     for (auto& c : corners)
         for (vec2& t : c) t.y = 1 - t.y;
-    model.write(path, corners, set);
+    unlocked([&] { model.write(path, corners, set); });
 }
 
 /// Arrays as a new model.
@@ -150,15 +165,20 @@ void write_new_model(const std::string& path, const array& V, const array& F, co
     auto corners = corners_of(rows, triangles.size());
     for (auto& c : corners)
         for (vec2& t : c) t.y = 1 - t.y;
-    io::gltf_model(points, triangles).write(path, corners);
+    unlocked([&] { io::gltf_model(points, triangles).write(path, corners); });
 }
 
 void write_surface_moved(const std::string& path, const std::string& like, const array& x)
 {
-    const auto file = io::read_surface_file(like);
-    io::atomic_file out(path);
-    file.write(out, places_of(x, "x"));
-    out.commit();
+    const auto file = unlocked([&] { return io::read_surface_file(like); });
+    const auto places = places_of(x, "x");
+    unlocked(
+        [&]
+        {
+            io::atomic_file out(path);
+            file.write(out, places);
+            out.commit();
+        });
 }
 
 /// Arrays as a new OBJ, with one texture coordinate a vertex.
@@ -166,22 +186,46 @@ void write_new_surface(const std::string& path, const array& V, const array& F, 
 {
     const auto m = mesh_of<triangle>(V, F);
     const auto x = points_of<2>(uv, "uv");
-    io::write_obj(std::filesystem::path(path), m, std::span<const vec2>(x));
+    unlocked([&] { io::write_obj(std::filesystem::path(path), m, std::span<const vec2>(x)); });
 }
 
 void write_volume_moved(const std::string& path, const std::string& like, const array& x, int zone)
 {
-    const auto file = io::read_volume_file(like, io::volume_format::automatic, zone);
+    const auto file = unlocked([&] { return io::read_volume_file(like, io::volume_format::automatic, zone); });
     auto points = places_of(x, "x");
     if (x.ndim() == 2 && x.shape(1) == 2)
         for (std::size_t v = 0; v < points.size() && v < file.points.size(); ++v) points[v].z = file.points[v].z;
-    file.write(path, points);
+    unlocked([&] { file.write(path, points); });
+}
+
+/// Files of bytes that appear together or not at all.
+void write_files(const nb::list& given)
+{
+    std::vector<io::file_to_write> files;
+    std::vector<nb::bytes> kept;
+    for (const nb::handle pair : given)
+    {
+        kept.push_back(nb::cast<nb::bytes>(pair[1]));
+        const std::string_view bytes(kept.back().c_str(), kept.back().size());
+        files.push_back({nb::cast<std::string>(pair[0]), [bytes](io::atomic_file& file) { file.write(bytes); }});
+    }
+    unlocked([&] { io::write_files(files); });
 }
 
 } // namespace
 
 void add_files(nb::module_& m)
 {
+    // As all files are written: complete or not at all, through no link that somebody else has planted, with the
+    // permissions of what it replaces.
+    m.def("write_file",
+          [](const std::string& path, const nb::bytes& bytes)
+          {
+              const std::string_view text(bytes.c_str(), bytes.size());
+              unlocked([&] { io::write_file(path, text); });
+          });
+    // Why a folder of code (caches, drivers) is not the user's alone; empty if it is.
+    m.def("fault_of_folder", [](const std::string& path) { return impl::fault_of_folder(path); });
     m.def("is_model", [](const std::string& path) { return io::is_gltf(path); });
     m.def("read_surface", &read_surface);
     m.def("read_model", &read_model);
@@ -192,6 +236,7 @@ void add_files(nb::module_& m)
     m.def("write_surface_moved", &write_surface_moved);
     m.def("write_new_surface", &write_new_surface);
     m.def("write_volume_moved", &write_volume_moved);
+    m.def("write_files", &write_files);
 }
 
 } // namespace taut::python

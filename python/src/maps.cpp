@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Maps of surfaces to the plane, and what any map is like.
+#include <span>
+#include <string>
+#include <vector>
+
 #include <taut/atlas.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/charts/atlas/cut_to_disk.hpp>
+#include <taut/impl/core/constrain/constraint_error.hpp>
+#include <taut/impl/core/exact/convex_polygons.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
 #include <taut/mesh.hpp>
 #include <taut/parameterize.hpp>
 #include <taut/quality.hpp>
 
+#include <taut/certify.hpp>
+#include <taut/impl/charts/packing/settle_map.hpp>
+
+#include "atlas_options.hpp"
 #include "bindings.hpp"
 #include "call.hpp"
 #include "constraint_rows.hpp"
@@ -47,6 +60,48 @@ struct map_job
     parameterize_params params;
     run_limits limits;
     std::shared_ptr<queue> device;
+    bool single = false;     ///< numbers are those that single precision holds
+    std::vector<idx> pinned; ///< vertices that rounding alone moves then
+
+    const mesh<triangle>& mapped() const { return cut ? cut->surface : surface; }
+
+    map_result make()
+    {
+        map_result made = parameterize(*device, mapped(), params, limits);
+        if (made && single) round(made);
+        return made;
+    }
+
+private:
+    /// Rounds a map to single precision, and moves what that flattens or turns over by as little as it takes. A map of
+    /// which more cannot be saved is none.
+    void round(map_result& made) const
+    {
+        const mesh<triangle>& m = mapped();
+        std::vector<vec2>& x = made.uv;
+        std::vector<char> held(x.size(), 0);
+        for (const idx v : pinned)
+        {
+            held[static_cast<std::size_t>(v)] = 1;
+            x[static_cast<std::size_t>(v)] = in_float(x[static_cast<std::size_t>(v)]);
+        }
+        impl::convex_polygons polygons;
+        if (!params.polygons.empty()) polygons = impl::find_convex_polygons(m.cells(), params.polygons, m.points());
+        impl::settle_piece(m.cells(), polygons.corners, 0, static_cast<idx>(x.size()), x,
+                           {.stored = in_float, .held = held, .apart = params.no_overlap});
+        map_report& r = made.report;
+        r.flips = certify<2>(m.cells(), std::span<const vec2>(x), {}, m.cells().size());
+        const std::size_t crossings = params.no_overlap ? boundary_crossings(boundary_loops(m), x) : 0;
+        r.concave.clear();
+        for (const idx k : impl::find_concave(polygons, x))
+            r.concave.push_back(polygons.numbers[static_cast<std::size_t>(k)]);
+        if (r.flips && crossings == 0) return;
+        r.outcome = outcome::gave_up;
+        r.ids = r.flips.ids;
+        r.reason = r.flips.flipped > 0 ? std::to_string(r.flips.flipped) +
+                                             " triangles are too thin for single precision; leave out `single`"
+                                       : "the border is too narrow for single precision; leave out `single`";
+    }
 };
 
 /// The surface cut along seams that make it one disk; nothing if it is one.
@@ -92,19 +147,19 @@ nb::dict for_cut_surface(const nb::dict& given, const mesh<triangle>& whole, con
 nb::object unwrap(const array& V, const array& F, const nb::dict& keywords, const control_handle& watched)
 {
     options given(keywords);
-    auto job = std::make_shared<map_job>(map_job{mesh_of<triangle>(V, F), {}, {}, {}, {}});
+    auto job = std::make_shared<map_job>(map_job{mesh_of<triangle>(V, F), {}, {}, {}, {}, false, {}});
     if (given.get("cut", false)) job->cut = cut_if_needed(job->surface);
     if (job->cut) given = options(for_cut_surface(keywords, job->surface, *job->cut));
-    const mesh<triangle>& m = job->cut ? job->cut->surface : job->surface;
-    job->params = map_params(given, m);
+    job->params = map_params(given, job->mapped());
+    given.read("single", job->single);
+    if (const auto b = given.rows("b")) job->pinned = ids_of(*b);
     job->limits = limits_of(given, watched.shared, "map");
     const auto device = given.get<std::string>("device", "");
     return told(run(watched.shared, given.progress(),
                     [job, device]
                     {
                         job->device = borrow_queue(device);
-                        return parameterize(*job->device, job->cut ? job->cut->surface : job->surface, job->params,
-                                            job->limits);
+                        return job->make();
                     }),
                 [job](map_result result) -> nb::object
                 {
@@ -159,7 +214,7 @@ nb::dict dict_of(const impl::means& m)
     return d;
 }
 
-nb::dict dict_of(const impl::spread& s)
+nb::dict dict_of(const spread& s)
 {
     nb::dict d;
     d["min"] = s.min;

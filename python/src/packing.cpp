@@ -27,11 +27,11 @@ struct pack_job
 };
 
 /// Outlines that are in the tiles already: rows of tile, then the two ends of an edge within its tile.
-std::vector<impl::tile_wall> walls_of(const array& tiles, const array& ends)
+std::vector<tile_wall> walls_of(const array& tiles, const array& ends)
 {
     const auto numbers = ids_of(tiles);
     const auto points = points_of<2>(ends, "walls"); // two rows an edge
-    std::vector<impl::tile_wall> walls(numbers.size());
+    std::vector<tile_wall> walls(numbers.size());
     for (std::size_t i = 0; i < walls.size(); ++i) walls[i] = {numbers[i], {points[2 * i], points[2 * i + 1]}};
     return walls;
 }

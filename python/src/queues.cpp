@@ -94,7 +94,7 @@ void add_devices(nb::module_& m)
                   entry["vendor"] = nb::str(d.vendor().c_str());
                   entry["platform"] = nb::str(d.platform().c_str());
                   entry["driver"] = nb::str(d.driver_version().c_str());
-                  entry["kind"] = d.is_gpu() ? "GPU" : d.is_cpu() ? "CPU" : "accelerator";
+                  entry["kind"] = d.is_host() ? "host" : d.is_gpu() ? "GPU" : d.is_cpu() ? "CPU" : "accelerator";
                   entry["double_precision"] = d.has_fp64();
                   entry["compute_units"] = d.compute_units();
                   entry["memory"] = d.global_memory();

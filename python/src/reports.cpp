@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reports.hpp"
 
+#include <taut/impl/core/solve/stop.hpp>
+
 namespace taut::python
 {
 
@@ -11,10 +13,10 @@ nb::list texts(const std::vector<std::string>& all)
     return list;
 }
 
-nb::list stages_of(const std::vector<impl::stage_report>& stages)
+nb::list stages_of(const std::vector<stage_report>& stages)
 {
     nb::list list;
-    for (const impl::stage_report& s : stages)
+    for (const stage_report& s : stages)
     {
         nb::dict d;
         d["stage"] = text(s.stage);
@@ -46,7 +48,7 @@ nb::dict dict_of(const certificate& c)
     return d;
 }
 
-nb::dict dict_of(const impl::shape_quality& q)
+nb::dict dict_of(const shape_quality& q)
 {
     nb::dict d;
     d["mean_ratio"] = q.mean_ratio;
@@ -92,7 +94,7 @@ nb::dict dict_of(const map_report& r)
     d["concave"] = array_of(r.concave);
     d["stages"] = stages_of(r.stages);
     d["flips"] = dict_of(r.flips);
-    const impl::map_seconds& s = r.seconds;
+    const map_seconds& s = r.seconds;
     d["seconds"] = s.device + s.setup + s.hierarchy + s.start + s.untangle + s.solve + s.overlap;
     if (r.overlap) d["overlaps"] = r.overlap->crossings;
     return d;

@@ -22,9 +22,9 @@ inline nb::str text(std::string_view s)
 }
 
 nb::list texts(const std::vector<std::string>& all);
-nb::list stages_of(const std::vector<impl::stage_report>& stages);
+nb::list stages_of(const std::vector<stage_report>& stages);
 nb::dict dict_of(const certificate& c);
-nb::dict dict_of(const impl::shape_quality& q);
+nb::dict dict_of(const shape_quality& q);
 
 const char* word_of(outcome o);
 
@@ -41,7 +41,7 @@ nb::dict dict_of(untangle_result<Element> r)
     d["ids"] = array_of(r.ids);
     d["converged"] = bool(r);
     d["stop"] = text(r ? r.stage : std::string(to_string(r.outcome)));
-    std::vector<impl::stage_report> stages(r.stages.begin(), r.stages.end());
+    std::vector<stage_report> stages(r.stages.begin(), r.stages.end());
     d["stages"] = stages_of(stages);
     d["flips"] = dict_of(r.flips);
     d["seconds"] = r.seconds;

@@ -157,7 +157,7 @@ public:
     nb::object solve(double seconds, int steps, nb::handle progress, const control_handle& watched)
     {
         at_rest();
-        impl::session_budget budget;
+        session_budget budget;
         budget.time = std::chrono::duration<double>(seconds);
         if (steps > 0) budget.steps = steps;
         budget.validate();

@@ -144,14 +144,14 @@ nb::object deform_of(const array& V, const nb::list& C, const nb::dict& keywords
                         job->queue_in_use = borrow_queue(job->device);
                         if (job->refine)
                             return deform(*job->queue_in_use, job->simplices(), job->deforming, job->limits, {});
-                        return impl::refined_deformation<Element>{
+                        return refined_deformation<Element>{
                             deform(*job->queue_in_use, job->simplices(), job->deforming, job->limits),
                             job->simplices(),
                             {},
                             {},
                             0};
                     }),
-                [job](impl::refined_deformation<Element> made) -> nb::object
+                [job](refined_deformation<Element> made) -> nb::object
                 {
                     nb::dict d = dict_of(made.result.report);
                     d["x"] = array_of<D>(std::move(made.result.x));
@@ -237,10 +237,10 @@ nb::object untangle_of(const array& X, const nb::list& C, const nb::dict& keywor
                         job->queue_in_use = borrow_queue(job->device);
                         if (job->refine)
                             return untangle(*job->queue_in_use, job->problem, job->params, job->limits, {});
-                        return impl::refined_untangling<Element>{
+                        return refined_untangling<Element>{
                             untangle(*job->queue_in_use, job->problem, job->params, job->limits), {job->problem}};
                     }),
-                [job](impl::refined_untangling<Element> made) -> nb::object
+                [job](refined_untangling<Element> made) -> nb::object
                 {
                     nb::dict d = dict_of(std::move(made.result));
                     if (job->refine) add_refined(d, made.refined.problem.rest, made.refined.cells, made.refined.rounds);

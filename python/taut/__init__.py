@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Maps of triangle and tetrahedral meshes that never fold, with low distortion, on any OpenCL device.
+"""Maps of triangle and tetrahedral meshes that never fold, with low distortion, on GPUs and processors.
 
 >>> import numpy as np, taut
 >>> V = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0.5], [0, 1, 0]])

@@ -22,6 +22,8 @@ _READ = "fiu"  # kinds of numbers that the library reads where they lie
 def _numbers(name: str, value: Any, *, nan: bool = False) -> Array:
     """An array of numbers that the library reads, with NaN for what is masked if that may be."""
     try:
+        if isinstance(value, (list, tuple)) and any(isinstance(row, np.ma.MaskedArray) for row in value):
+            value = np.ma.array(value)
         if np.ma.is_masked(value):
             if not nan:
                 bad = _first(np.ma.getmaskarray(value))
@@ -36,6 +38,8 @@ def _numbers(name: str, value: Any, *, nan: bool = False) -> Array:
                 a = a.astype(np.float64)
         elif a.dtype.kind == "f" and a.dtype.itemsize == 2:
             a = a.astype(np.float32)
+        if any(step % a.itemsize for step in a.strides):  # of records, whose columns lie anywhere
+            a = a.copy()
     except (TypeError, ValueError, OverflowError) as e:
         if isinstance(e, ParameterError):
             raise
@@ -57,9 +61,23 @@ def _no_numbers(value: Any, error: Exception) -> str:
     return f"these are no numbers: {error}"
 
 
-def array(name: str, value: Any) -> Floats:
-    """Doubles of any shape."""
-    return _numbers(name, value).astype(np.float64, copy=False)
+def path(name: str, value: Any) -> str:
+    """The name of a file. Raises `ParameterError` for what is none, or would be another file's."""
+    try:
+        text = os.fsdecode(value)
+        text.encode()
+    except TypeError:
+        raise ParameterError(f"{name}: is {value!r}, but must be the name of a file", field=name) from None
+    except UnicodeError:
+        raise ParameterError(f"{name}: is {value!r}, which is no UTF-8; rename the file or its folder", field=name) from None
+    if "\0" in text:
+        raise ParameterError(f"{name}: is {text!r}, but no name of a file has the character 0", field=name)
+    return text
+
+
+def array(name: str, value: Any, *, nan: bool = False) -> Floats:
+    """Doubles of any shape, with NaN for what is masked if that may be."""
+    return _numbers(name, value, nan=nan).astype(np.float64, copy=False)
 
 
 def _first(bad: Array) -> tuple[int, ...]:
@@ -98,6 +116,16 @@ def points(name: str, value: Any, columns: tuple[int, ...] = (3,), *, rows: int 
     return a
 
 
+def pins(name: str, value: Any, columns: tuple[int, ...], *, rows: int | None = None) -> Array:
+    """Places of pins, a pin a row; NaN leaves a coordinate free, but not all of a row."""
+    a = points(name, value, columns, rows=rows, nan=True)
+    free = np.flatnonzero(np.isnan(a).all(1)) if a.dtype.kind == "f" else np.zeros(0, int)
+    if free.size:
+        raise ParameterError(f"{name}: row {free[0]} is NaN, which pins no coordinate; leave it out", field=name,
+                             ids=[int(k) for k in free])
+    return a
+
+
 def indices(name: str, value: Any, columns: tuple[int, ...], count: int) -> Array:
     """Vertex numbers, a cell a row. Raises `ParameterError` for what is out of range."""
     a = _shape(name, _numbers(name, value), columns)
@@ -133,6 +161,20 @@ def number(name: str, value: Any) -> float:
         raise ParameterError(f"{name}: is {value!r}, but must be a number", field=name) from None
 
 
+def whole(name: str, value: Any, least: int = 0, *, cap: bool = False) -> int:
+    """One whole number that 32 bits hold, which may be given as a float; cap: larger ones are the largest of these."""
+    try:
+        n = int(value)
+        fits = n == value and n >= least
+    except (TypeError, ValueError, OverflowError):
+        fits = False
+    if fits and cap:
+        n = min(n, 2**31 - 1)
+    if not fits or n >= 2**31:
+        raise ParameterError(f"{name}: is {value!r}, but must be a whole number, {least} or more", field=name)
+    return n
+
+
 def _in_range(name: str, a: Array, count: int) -> Array:
     if a.dtype.kind == "f":
         broken = ~np.isfinite(a) | (a != np.floor(a))
@@ -145,6 +187,27 @@ def _in_range(name: str, a: Array, count: int) -> Array:
         numbers = f"numbers go from 0 to {count - 1}" if count else "there are none"
         raise ParameterError(f"{name}: row {bad[0]} names {int(a[bad])}, but {numbers}", field=name, ids=[bad[0]])
     return a.astype(np.int64) if a.dtype.kind in "fb" else a
+
+
+def labels(name: str, value: Any, rows: int, *, least: int | None = 0) -> Array:
+    """Whole numbers, one a row, that only say which rows belong together; least: the smallest that there may be."""
+    a = _shape_of_rows(name, _numbers(name, value), rows)
+    low, high = (-(2**63), 2**63) if least is None else (least, 2**31)
+    with np.errstate(invalid="ignore"):
+        bad = ~((a == np.floor(a)) & (a >= low) & (a < high)) if a.dtype.kind == "f" else (a < low) | (a >= high)
+    if bad.any():
+        r = _first(bad)[0]
+        raise ParameterError(f"{name}: row {r} has {a[r]}, but must be a whole number, from {low} to {high - 1}",
+                             field=name, ids=[r])
+    return a.astype(np.int64)
+
+
+def _shape_of_rows(name: str, a: Array, rows: int) -> Array:
+    if a.ndim != 1:
+        raise ParameterError(f"{name}: has the shape {a.shape}, but must be (n,)", field=name)
+    if a.shape[0] != rows:
+        raise ParameterError(f"{name}: has {a.shape[0]} rows, but must have {rows}", field=name)
+    return a
 
 
 def numbers(name: str, value: Any, rows: int | None = None, *, columns: bool = False) -> Array:

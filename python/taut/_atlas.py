@@ -28,8 +28,8 @@ def _corner_uv(name: str, value: Any, faces: Any, vertices: int) -> Any:
     )
 
 
-#: Numbers of `prefer="packing"` that few have a reason to set.
-_TUNING = ("least_fill", "cut_rounds", "unite_rounds")
+#: Numbers of `prefer="packing"` that few have a reason to set; and the mesh that each vertex is of, which repair parts.
+_TUNING = ("least_fill", "cut_rounds", "unite_rounds", "bodies")
 
 
 #: Names of the library that are others here.
@@ -146,9 +146,14 @@ def atlas(
         if name not in _TUNING:
             raise TypeError(f"atlas() got an unexpected keyword argument {name!r}")
     if F is None:
+        alone = {"polygons": polygons, "uv": uv, "seams": seams, "seam_weights": seam_weights, "parts": parts,
+                 "pinned": pinned, "densities": densities, "charts": None if charts == "auto" else charts}
+        for name, value in alone.items():
+            if value is not None:
+                raise ParameterError(f"{name}: is of one surface; give V and F of that, several put together", field=name)
         return _several(V, prefer=prefer, resolution=resolution, padding=padding, tiles=tiles, aspect=aspect,
                         texels_per_unit=texels_per_unit, max_resolution=max_resolution, align=align, stack=stack,
-                        hide_seams=hide_seams, crease_angle=crease_angle,
+                        symmetric=symmetric, hide_seams=hide_seams, crease_angle=crease_angle,
                         rotate=rotate, repair=repair, max_distortion=max_distortion,
                         mean_distortion=mean_distortion, max_stretch=max_stretch, weld=weld, single=single,
                         time_limit=time_limit, progress=progress, device=device, **more)
@@ -156,6 +161,18 @@ def atlas(
     faces = _arrays.indices("F", F, (3,), len(points))
     m = len(faces)
     _require_fitting(charts, uv, pinned, resolution)
+    made = {"prefer": prefer if prefer != "seams" else None, "symmetric": symmetric or None,
+            "hide_seams": hide_seams or None, "crease_angle": crease_angle if crease_angle != 180 else None,
+            "seam_weights": seam_weights, "max_distortion": max_distortion, "mean_distortion": mean_distortion,
+            "max_stretch": max_stretch}
+    if charts in ("keep", "pack"):
+        _refuse(made, f'charts="{charts}" makes no charts')
+    elif pinned is None:
+        _refuse({"uv": uv}, 'charts="auto" makes new ones; give `pinned`, or other `charts`')
+    if prefer != "packing":
+        _refuse(more, 'they tune prefer="packing"')
+    if not repair:
+        _refuse({"weld": weld or None}, "repair=False welds nothing")
     options: dict[str, Any] = {
         "charts": charts,
         "prefer": prefer,
@@ -181,9 +198,9 @@ def atlas(
         **more,
     }
     if polygons is not None:
-        options["polygons"] = _arrays.numbers("polygons", polygons, m)
+        options["polygons"] = _arrays.labels("polygons", polygons, m)
     if parts is not None:
-        options["parts"] = _arrays.numbers("parts", parts, m)
+        options["parts"] = np.unique(_arrays.labels("parts", parts, m, least=None), return_inverse=True)[1].reshape(-1)
     if seams is not None:
         options["seams"] = _arrays.indices("seams", seams, (2,), len(points))
         _require_edges("seams", options["seams"], faces, len(points))
@@ -196,6 +213,13 @@ def atlas(
     if densities is not None:
         options["densities"] = _arrays.numbers("densities", densities, m)
     return call(native().atlas, points, faces, options, progress=progress, make=Atlas.of, names=_NAMES)
+
+
+def _refuse(given: dict[str, Any], why: str) -> None:
+    """Raises `ParameterError` for arguments that would have no effect."""
+    for name, value in given.items():
+        if value is not None and name != "bodies":
+            raise ParameterError(f"{name}: has no effect, as {why}", field=name)
 
 
 def _require_fitting(charts: str, uv: Any, pinned: Any, resolution: Any) -> None:
@@ -225,6 +249,7 @@ def _mean_bound(max_distortion: Any, mean_distortion: Any, max_stretch: Any) -> 
             "max_stretch: is a bound of the mean distortion; leave out max_distortion and mean_distortion",
             field="max_stretch",
         )
+    max_stretch = _arrays.number("max_stretch", max_stretch)
     if not 1 < max_stretch < np.inf:
         raise ParameterError(
             f"max_stretch: is {max_stretch}, but must be above 1, that of no stretch", field="max_stretch"
@@ -272,6 +297,7 @@ def _several(meshes: Any, **options: Any) -> list[Atlas]:
     whole = atlas(
         np.concatenate([np.asarray(V, dtype=np.float64) for V, _ in pairs]),
         np.concatenate([np.asarray(F, dtype=np.int64) + f for (_, F), f in zip(pairs, first)]),
+        bodies=np.repeat(np.arange(len(pairs)), [len(V) for V, _ in pairs]),
         **options,
     )
     return _split(whole, [len(V) for V, _ in pairs], [len(F) for _, F in pairs])

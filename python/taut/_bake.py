@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _arrays
+from . import _arrays, _options
 from ._arrays import ArrayLike
 from ._call import named
 from ._native import native
@@ -28,16 +28,6 @@ def _corners(name: str, uv: ArrayLike) -> NDArray[Any]:
     return rows.reshape(-1, 2)
 
 
-def _scalar(name: str, value: Any, kind: type) -> Any:
-    try:
-        if kind is int and value != int(value):
-            raise ValueError
-        return kind(value)
-    except (TypeError, ValueError, OverflowError):
-        words = "a whole number" if kind is int else "a number"
-        raise ParameterError(f"{name}: is {value!r}, but must be {words}", field=name) from None
-
-
 def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | tuple[int, int] | None = None,
          filter: str = "bilinear", wrap: str = "repeat", samples: int = 1, gutter: float | None = None,
          device: str | int | None = None) -> NDArray[np.float64]:
@@ -53,7 +43,7 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
         Texels of the new image; None: those of the old one.
     filter : "bilinear" or "nearest"
         Between old texels; "nearest" for labels.
-    wrap : "repeat" or "clamp"
+    wrap : "repeat", "clamp" or "mirror"
     samples : int
         Places along each side of a texel of which the mean is taken.
     gutter : float, optional
@@ -80,12 +70,12 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
         raise ParameterError("image: has numbers beyond single precision; scale them", field="image")
     options: dict[str, Any] = {"height": old.shape[0], "width": old.shape[1],
                                "channels": old.shape[2] if old.ndim == 3 else 1, "filter": filter, "wrap": wrap,
-                               "samples": _scalar("samples", samples, int),
-                               "gutter": math.inf if gutter is None else _scalar("gutter", gutter, float)}
+                               "samples": _arrays.whole("samples", samples),
+                               "gutter": math.inf if gutter is None else _arrays.number("gutter", gutter)}
     if size is not None:
         both: Any = (size, size) if np.ndim(size) == 0 else size
         try:
-            width, height = (_scalar("size", n, int) for n in both)
+            width, height = (_arrays.whole("size", n) for n in both)
         except (TypeError, ValueError):
             raise ParameterError(f"size: is {size!r}, but must be one number of texels, or (width, height)",
                                  field="size") from None
@@ -93,7 +83,7 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
             raise ParameterError(f"size: is {width} x {height}, but both must be positive", field="size")
         options["new_width"], options["new_height"] = width, height
     if device is not None:
-        options["device"] = str(device)
+        options["device"] = _options.device(device)
     rows = np.ascontiguousarray(old[::-1]).reshape(-1)
     corners = _corners("old_uv", old_uv), _corners("new_uv", new_uv)
     if len(corners[0]) != len(corners[1]):

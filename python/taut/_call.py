@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import sys
+import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -113,6 +114,9 @@ def shown(progress: ProgressLike) -> Iterator[Any]:
 
 def _checked(options: dict[str, Any]) -> dict[str, Any]:
     """Whole numbers that were given as floats, and limits of time."""
+    for name, value in options.items():
+        if isinstance(value, np.bool_):
+            options[name] = bool(value)
     for name in _WHOLE:
         value = options.get(name)
         if isinstance(value, (float, np.floating)) and float(value).is_integer():
@@ -141,6 +145,20 @@ def call(
     return conclude(told, make)
 
 
+def _once(wait: Callable[[], Any]) -> Callable[[], Any]:
+    """What is waited for once, also where several threads ask."""
+    lock = threading.Lock()
+    found: list[Any] = []
+
+    def get() -> Any:
+        with lock:
+            if not found:
+                found.append(wait())
+            return found[0]
+
+    return get
+
+
 def conclude(
     told: tuple[str, dict[str, Any] | None, Callable[[], dict[str, Any] | None] | None],
     make: Callable[[dict[str, Any]], T],
@@ -161,7 +179,7 @@ def conclude(
 
     best, wait = best_of(found), None
     if later is not None:
-        what, wait = "; it still ends, and .best waits for its result", lambda: best_of(later())
+        what, wait = "; it still ends, and .best waits for its result", _once(lambda: best_of(later()))
     else:
         what = "; .best has the result so far" if best is not None else ", before there was a result"
     if ended == "cancelled":

@@ -3,12 +3,10 @@
 
 from __future__ import annotations
 
-import hashlib
 import importlib.metadata
 import importlib.util
 import os
 import shutil
-import tempfile
 from pathlib import Path
 
 _SYSTEM = Path("/etc/OpenCL/vendors")
@@ -89,22 +87,5 @@ def announce() -> None:
     if os.environ.get("OCL_ICD_FILENAMES") or _has_drivers(os.environ.get("OCL_ICD_VENDORS")):
         return
     if libraries := drivers_by_pip():
-        # One loader takes a list, another a folder.
-        os.environ["OCL_ICD_FILENAMES"] = os.pathsep.join(libraries)
-        os.environ["OCL_ICD_VENDORS"] = str(_folder_of(libraries))
-
-
-def _folder_of(libraries: list[str]) -> Path:
-    """A folder that names these drivers and no others, the same one at each call."""
-    user = os.getuid() if hasattr(os, "getuid") else 0
-    key = hashlib.sha256("\n".join(libraries).encode()).hexdigest()[:16]
-    folder = Path(tempfile.gettempdir()) / f"taut-drivers-{user}-{key}"
-    try:
-        folder.mkdir(mode=0o700, exist_ok=True)
-        if hasattr(os, "getuid") and folder.stat().st_uid != user:
-            raise OSError
-    except OSError:
-        folder = Path(tempfile.mkdtemp(prefix="taut-drivers-"))
-    for k, library in enumerate(libraries):
-        (folder / f"{k}.icd").write_text(library + "\n")
-    return folder
+        # One loader takes a list, another one library by its path; neither looks into a folder that others may write.
+        os.environ["OCL_ICD_FILENAMES"] = os.environ["OCL_ICD_VENDORS"] = libraries[0]

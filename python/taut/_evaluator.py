@@ -88,7 +88,7 @@ class Evaluator:
         """
         from scipy.sparse import bsr_matrix
 
-        offsets, columns, numbers = self._evaluator.hessian(self._points("x", x), projected)
+        offsets, columns, numbers = self._evaluator.hessian(self._points("x", x), bool(projected))
         d = self.dim
         n = d * self._count
         return bsr_matrix((np.reshape(numbers, (-1, d, d)), columns, offsets), shape=(n, n))

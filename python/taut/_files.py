@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Union
@@ -25,7 +26,7 @@ _MODELS = (".gltf", ".glb")
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """What a file has. Unpacks as `V, F`, of a volume as `V, C`.
+    """What a file has. Unpacks as `V, F`, of a volume as `V, C`, where quads lie in a plane V with two columns.
 
     Attributes
     ----------
@@ -70,7 +71,8 @@ class Mesh:
         return blocks[0] if len(blocks) == 1 else blocks
 
     def __iter__(self) -> Any:
-        return iter((self.V, self.C))
+        flat = "quads" in self.cells and self.dimension == 2 and bool((self.V[:, 2] == self.V[:1, 2]).all())
+        return iter((self.V[:, :2] if flat else self.V, self.C))  # with three numbers four corners are tetrahedra
 
 
 def read(path: PathLike, *, zone: int = 0, texcoord_set: int = 0) -> Mesh:
@@ -90,15 +92,19 @@ def read(path: PathLike, *, zone: int = 0, texcoord_set: int = 0) -> Mesh:
 
     Examples
     --------
-    >>> import pathlib, tempfile, taut
-    >>> path = pathlib.Path(tempfile.mkdtemp()) / "triangle.obj"
-    >>> taut.write(path, V=[[0, 0, 0], [1, 0, 0], [0, 1, 0]], F=[[0, 1, 2]])
-    >>> V, F = taut.read(path)
+    >>> import tempfile, taut
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     taut.write(f"{folder}/triangle.obj", V=[[0, 0, 0], [1, 0, 0], [0, 1, 0]], F=[[0, 1, 2]])
+    ...     V, F = taut.read(f"{folder}/triangle.obj")
     >>> V.shape, F.tolist()
     ((3, 3), [[0, 1, 2]])
     """
-    name = os.fspath(path)
+    name = _arrays.path("path", path)
     extension = Path(name).suffix.lower()
+    zone, texcoord_set = _arrays.whole("zone", zone), _arrays.whole("texcoord_set", texcoord_set)
+    for argument, value, own in (("zone", zone, (".su2",)), ("texcoord_set", texcoord_set, _MODELS)):
+        if value and extension not in own:
+            raise ParameterError(f"{argument}: is {value}, but only {', '.join(own)} have several", field=argument)
     if extension in _MODELS:
         d = native().read_model(name, texcoord_set)
     elif extension in _SURFACES:
@@ -123,9 +129,9 @@ def _uv_rows(uv: Any, F: Array, vertices: int) -> Array:
         uv = uv.corner_uv
     elif isinstance(uv, Map):
         uv = uv.uv[uv.faces] if uv.faces is not None else uv.uv
-    a = np.asarray(uv, dtype=np.float64)
-    if a.ndim == 3 and np.isnan(a).any():  # corners that have none
-        return a.reshape(-1, 2)
+    a = _arrays.array("uv", uv, nan=np.ndim(uv) == 3)
+    if a.shape == (len(F), 3, 2):
+        return _arrays.points("uv", a.reshape(-1, 2), (2,), nan=True)  # NaN: corners that have none
     rows: Array = _corner_uv("uv", a, F, vertices)
     return rows
 
@@ -157,21 +163,28 @@ def write(
 
     Examples
     --------
-    >>> import pathlib, tempfile, taut
-    >>> path = pathlib.Path(tempfile.mkdtemp()) / "triangle.obj"
-    >>> taut.write(path, V=[[0, 0, 0], [1, 0, 0], [0, 1, 0]], F=[[0, 1, 2]], uv=[[0, 0], [1, 0], [0, 1]])
-    >>> taut.read(path).corner_uv.tolist()
+    >>> import tempfile, taut
+    >>> V, F, uv = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]], [[0, 0], [1, 0], [0, 1]]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     taut.write(f"{folder}/triangle.obj", V=V, F=F, uv=uv)
+    ...     taut.read(f"{folder}/triangle.obj").corner_uv.tolist()
     [[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]]
     """
-    name = os.fspath(path)
+    name = _arrays.path("path", path)
     extension = Path(name).suffix.lower()
+    for argument, value, how in (("V", V, "with"), ("F", F, "with"), ("x", x, "without")):
+        if value is not None and (like is None) == (how == "without"):
+            raise ParameterError(f"{argument}: is given, but has no effect {how} `like`", field=argument)
     if like is None:
         _write_new(name, extension, V, F, uv)
         return
-    mesh = like if isinstance(like, Mesh) else read(like)
+    mesh = like if isinstance(like, Mesh) else read(_arrays.path("like", like))
     if (x is None) == (uv is None):
         raise ParameterError("x and uv: give one of them", field="x")
+    _require_extension(path, extension, mesh, uv is not None)
     if mesh.kind == "volume":
+        if uv is not None:
+            raise ParameterError("uv: volumes have no texture coordinates; give x", field="uv")
         places = _arrays.points("x", x, (2, 3), rows=len(mesh.V))
         native().write_volume_moved(name, mesh.path, places, mesh.zone)
         return
@@ -185,6 +198,18 @@ def write(
         return
     native().write_surface_uv(name, mesh.path, rows)
     return
+
+
+def _require_extension(path: PathLike, extension: str, mesh: Mesh, textured: bool) -> None:
+    """Raises `ParameterError` where a name says another format than what is written; volumes and models know theirs."""
+    if mesh.kind == "model" and not textured:
+        raise ParameterError("x: places of a glTF model stay; give uv", field="x")
+    if mesh.kind != "surface":
+        return
+    own = ".obj" if textured else Path(mesh.path).suffix.lower()
+    if extension != own:
+        what = "texture coordinates are written as OBJ" if textured else "it is written as the file it is like"
+        raise ParameterError(f"path: is {os.fspath(path)!r}, but must end with {own}, as {what}", field="path")
 
 
 def _write_new(name: str, extension: str, V: Any, F: Any, uv: Any) -> None:
@@ -215,19 +240,16 @@ def _write_bare(name: str, points: Array, faces: Array) -> None:
     """An OBJ file without texture coordinates, which reads back bit for bit."""
     lines = [f"v {x!r} {y!r} {z!r}\n" for x, y, z in points.astype(np.float64).tolist()]
     lines += [f"f {a} {b} {c}\n" for a, b, c in (faces.astype(np.int64) + 1).tolist()]
-    part = f"{name}.{os.getpid()}.part"
-    try:
-        with open(part, "w", encoding="ascii") as file:
-            file.writelines(lines)
-        os.replace(part, name)
-    except OSError as e:
-        if os.path.exists(part):
-            os.unlink(part)
-        raise FileError(f"{name}: {e.strerror}", path=name) from None
+    write_bytes({name: "".join(lines).encode("ascii")})
+
+
+def write_bytes(files: Mapping[Any, bytes]) -> None:
+    """Files by their paths, which appear together or not at all, as all that the library writes."""
+    native().write_files([(_arrays.path("path", path), content) for path, content in files.items()])
 
 
 def devices() -> list[Device]:
-    """What OpenCL offers on this machine.
+    """What OpenCL offers on this machine, and the host, which is the last one.
 
     Examples
     --------

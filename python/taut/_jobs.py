@@ -7,6 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, Generic, TypeVar
 
+from . import _arrays
 from ._call import watched_by
 from ._native import native
 from .errors import ParameterError
@@ -52,7 +53,7 @@ class Job(Generic[T]):
 
     def result(self, timeout: float | None = None) -> T:
         """The result, or what the call raised. Raises `TimeoutError` where there is none after so many seconds."""
-        self._thread.join(timeout)
+        self._thread.join(None if timeout is None else _arrays.number("timeout", timeout))
         if self._thread.is_alive():
             raise TimeoutError("the job is still at work")
         if self._error is not None:

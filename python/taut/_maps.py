@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -44,6 +45,7 @@ def unwrap(
     directions: ArrayLike = None,
     parameters: ArrayLike = (),
     placement: str = "upright",
+    single: bool = False,
     precision: str = "auto",
     tolerance: float | None = None,
     iterations: int | None = None,
@@ -66,7 +68,7 @@ def unwrap(
     energy : str, Energy or callable
         What is minimised: "isometric", "shape", "area", or an energy of your own (`taut.energy`).
     boundary : {"free", "circle", "square"}
-        What becomes of the boundary.
+        What becomes of the boundary; not with `initial`, which has one.
     no_overlap : bool
         Whether the boundary must not cross itself.
     holes : bool
@@ -84,6 +86,8 @@ def unwrap(
         Numbers that the energy reads, of all triangles.
     placement : {"upright", "unit_square", "as_solved"}
         Where a map comes to lie that nothing holds.
+    single : bool
+        Whether the map is one of numbers that float32 holds, certified as these; pins are rounded to them.
     precision : {"auto", "fp64", "mixed", "fp32"}
     tolerance, iterations, time_limit : optional
         Relative gradient, Newton's steps and seconds at which it ends.
@@ -127,18 +131,49 @@ def unwrap(
         "no_overlap": no_overlap,
         "holes": holes,
         "cut": cut,
+        "single": single,
         "device": _options.device(device),
     }
+    if single and "bc" in options:
+        with np.errstate(over="ignore"):  # is said of the vertex
+            options["bc"] = options["bc"].astype(np.float32)
+    if placement == "unit_square" and (b is not None or springs is not None):
+        what = "pins hold" if b is not None else "springs draw"
+        raise ParameterError(f'placement: "unit_square" has no effect on a map that {what}', field="placement")
     if initial is not None:
+        if boundary in ("circle", "square"):
+            raise ParameterError(f'boundary: "{boundary}" has no effect on a boundary that `initial` has; leave one out',
+                                 field="boundary")
         options["initial"] = _arrays.points("initial", initial, (2,), rows=n)
     if polygons is not None:
-        options["polygons"] = _arrays.numbers("polygons", polygons, m)
+        options["polygons"] = _arrays.labels("polygons", polygons, m)
     try:
         return call(native().unwrap, points, faces, options, progress=progress, make=Map.of)
     except MeshError as e:
         if e.fault in _REMEDIES:
             e.args = (f"{e}; {_REMEDIES[e.fault]}",)
         raise
+
+
+def square(options: Mapping[str, Any]) -> dict[str, Any]:
+    """The placement of a texture: the unit square, unless pins or springs say where it lies."""
+    held = options.get("b") is not None or options.get("springs") is not None
+    return {} if held else {"placement": "unit_square"}
+
+
+def at_scale(options: Mapping[str, Any], of: str, **own: bool) -> dict[str, Any]:
+    """Options of `unwrap` for maps with one place for each vertex, at the scale of the surface.
+
+    of : what has such a map, for messages; own : what else it has
+    """
+    for name, value in {"cut": False, **own}.items():
+        if isinstance(options.get(name), (bool, np.bool_)) and options[name] != value:
+            why = "vertices have one place each; cut the surface before" if name == "cut" else "that is how they are made"
+            raise ParameterError(f"{name}: must be {value} for {of}, as {why}", field=name)
+    if isinstance(options.get("placement"), str) and options["placement"] == "unit_square":
+        raise ParameterError(f'placement: must not be "unit_square" for {of}, which keep the lengths of the surface',
+                             field="placement")
+    return {"holes": True, **own, **{name: value for name, value in options.items() if value is not None}}
 
 
 def _map_of(C: Any, x: Any, V: Any = None) -> tuple[Any, Any, int, Any]:

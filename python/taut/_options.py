@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import _arrays
-from ._trace import as_energy
+from ._trace import BuiltinEnergy, as_energy
 from .errors import ParameterError
 
 
@@ -38,7 +38,7 @@ def pins(b: Any, bc: Any, springs: Any, count: int, dim: int) -> dict[str, Any]:
         raise ParameterError("b and bc: give both, or none of them", field="bc" if bc is None else "b")
     if b is not None:
         options["b"] = _arrays.ids("b", b, count)
-        options["bc"] = _arrays.points("bc", bc, (dim,), rows=len(options["b"]), nan=True)
+        options["bc"] = _arrays.pins("bc", bc, (dim,), rows=len(options["b"]))
     if springs is not None:
         try:
             vertices, places, weights = springs
@@ -47,6 +47,9 @@ def pins(b: Any, bc: Any, springs: Any, count: int, dim: int) -> dict[str, Any]:
         options["spring_b"] = _arrays.ids("springs", vertices, count)
         options["spring_bc"] = _arrays.points("springs", places, (dim,), rows=len(options["spring_b"]))
         options["spring_w"] = _arrays.numbers("springs", weights, len(options["spring_b"]))
+        none = np.flatnonzero(options["spring_w"] == 0)
+        if len(none):
+            raise ParameterError(f"springs: row {none[0]} has the weight 0, and no effect", field="springs", ids=none[:1])
     return options
 
 
@@ -59,9 +62,14 @@ def energies(
         options["weights"] = _arrays.numbers("weights", weights, cells)
     if attributes is not None:
         options["attributes"] = _arrays.numbers("attributes", attributes, cells, columns=True)
+    numbers = np.atleast_1d(_arrays.array("parameters", parameters))
+    if isinstance(as_energy(energy), BuiltinEnergy):
+        given = (("attributes", attributes), ("directions", directions), ("parameters", numbers if numbers.size else None))
+        for name, value in given:
+            if value is not None:
+                raise ParameterError(f"{name}: has no effect, as no energy of taut's own reads them", field=name)
     if directions is not None:
         options["directions"] = _arrays.points("directions", directions, (2, 3), rows=cells)
-    numbers = np.atleast_1d(_arrays.array("parameters", parameters))
     if numbers.size:
         options["parameters"] = _arrays.numbers("parameters", numbers)
     return options

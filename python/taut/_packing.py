@@ -94,7 +94,7 @@ def pack(
     """
     points = np.asarray(_arrays.points("uv", uv, (2,)), dtype=np.float64)
     faces = np.asarray(_arrays.indices("F", F, (3,), len(points)), dtype=np.int64)
-    m = len(faces)
+    m, tiles = len(faces), _arrays.whole("tiles", tiles, 1)
     chart = _charts(faces, len(points)) if m else np.zeros(0, np.int64)
     stays = np.zeros(m, bool) if fixed is None else np.asarray(_arrays.numbers("fixed", fixed, m)) != 0
     stays = np.isin(chart, chart[stays])
@@ -127,12 +127,16 @@ def pack(
         factors = np.asarray(_arrays.numbers("densities", densities, m), dtype=np.float64)[moved]
         options["densities"] = np.bincount(own, factors) / np.bincount(own)
 
+    moving = points[vertices]
+    size = np.frexp(np.abs(moving).max())[1]
+    power = 0 if abs(size) < 300 else -int(size)  # areas of others are no doubles
+
     def make(d: dict[str, Any]) -> Packed:
         places = d["tile"]
         shift = np.c_[places % 10 - places, places // 10]  # rows of ten tiles
         made_uv[vertices] = d["uv"] + shift[of_vertex[vertices]]
         tile[moved] = places[own]
-        return Packed(made_uv, chart, tile, d["scale"], d["utilization"], d["complete"])
+        return Packed(made_uv, chart, tile, float(np.ldexp(d["scale"], power)), d["utilization"], d["complete"])
 
-    return call(native().pack, points[vertices], number[faces[moved]], first_cell, first_vertex, options,
+    return call(native().pack, np.ldexp(moving, power), number[faces[moved]], first_cell, first_vertex, options,
                 progress=progress, make=make)

@@ -82,6 +82,8 @@ def paste(
     if shift is not None:
         options["shift"] = _arrays.numbers("shift", shift, 3)
     if faces is not None:
+        if at is not None or radius is not None:
+            raise ParameterError("faces: are given, and at, radius have no effect then; leave one out", field="faces")
         options["faces"] = _arrays.ids("faces", faces, len(source_F))
     elif at is not None and radius is not None:
         options["at"] = _arrays.vertex("at", at, len(source_V))

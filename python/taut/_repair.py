@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from . import _arrays
 from ._arrays import ArrayLike
 from ._call import named
@@ -33,10 +35,11 @@ def repair(V: ArrayLike, F: ArrayLike, *, weld: float | bool = False, polygons: 
     """
     points = _arrays._shape("V", _arrays._numbers("V", V, nan=True), (3,))
     faces = _arrays._shape("F", _arrays._numbers("F", F), (3,))
-    options: dict[str, Any] = {"usual_weld": weld is True}
-    if weld is not True and weld is not False:
+    flag = isinstance(weld, (bool, np.bool_))
+    options: dict[str, Any] = {"usual_weld": flag and bool(weld)}
+    if not flag:
         options["weld"] = _arrays.number("weld", weld)
     if polygons is not None:
-        options["polygons"] = _arrays.numbers("polygons", polygons, len(faces))
+        options["polygons"] = _arrays.labels("polygons", polygons, len(faces))
     with named({"weld_tolerance": "weld"}):
         return Repaired(**native().repair(points, faces, options))

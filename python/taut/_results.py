@@ -358,7 +358,7 @@ class Frame:
 
 @dataclass(frozen=True)
 class Device:
-    """An OpenCL device of this machine; `refusal` says why it cannot serve, or is empty."""
+    """The host, or an OpenCL device of this machine; `refusal` says why it cannot serve, or is empty."""
 
     name: str
     vendor: str

@@ -74,9 +74,18 @@ class Session:
         shape = np.shape(np.asarray(C))
         corners = shape[1] if len(shape) == 2 else 0
         kind = kind or ("volume" if corners == 4 else "map")
-        if kind not in _KINDS:
+        if not isinstance(kind, str) or kind not in _KINDS:
             raise ParameterError(f"kind: is {kind!r}, but must be one of {', '.join(_KINDS)}", field="kind")
         name, self.dim = _KINDS[kind]
+        shell = kind == "shell"
+        unused: dict[str, Any] = {"thickness": None if shell else thickness}
+        if shell:
+            unused |= {"initial": initial, "weights": weights, "attributes": attributes, "directions": directions,
+                       "energy": None if isinstance(energy, str) and energy == "isometric" else energy,
+                       "parameters": parameters if np.size(np.asarray(parameters)) else None}
+        for name_of, value in unused.items():
+            if value is not None:
+                raise ParameterError(f'{name_of}: has no effect with kind="{kind}"', field=name_of)
         points = _arrays.points("V", V, (2, 3) if self.dim == 2 else (3,))
         cells = _arrays.indices("C", C, (4,) if kind == "volume" else (3,), len(points))
         options = {
@@ -87,7 +96,7 @@ class Session:
             "planar": kind == "plane",
             "device": _options.device(device),
         }
-        if kind != "shell":
+        if not shell:
             options.update(
                 _options.energies(energy, self.dim, len(cells), weights, attributes, directions, parameters)
             )
@@ -140,7 +149,8 @@ class Session:
         place = _arrays.array("x", x)
         if place.shape not in ((self.dim,), (1, self.dim)):
             raise ParameterError(f"x: has the shape {place.shape}, but must be ({self.dim},)", field="x")
-        row: Floats = _arrays.points("x", place.reshape(1, -1), (self.dim,), nan=nan)[0]
+        rows = place.reshape(1, -1)
+        row: Floats = (_arrays.pins if nan else _arrays.points)("x", rows, (self.dim,))[0]
         return row
 
     def pin(self, v: int, x: ArrayLike) -> Session:
@@ -198,7 +208,10 @@ class Session:
         """Goes back to a snapshot of this session."""
         if not isinstance(snapshot, tuple) or len(snapshot) != 2:
             raise ParameterError(f"snapshot: is {snapshot!r}, but must be what snapshot() returned", field="snapshot")
-        self._session.restore(snapshot[0])
+        try:
+            self._session.restore(snapshot[0])
+        except TypeError:
+            raise ParameterError("snapshot: is none that snapshot() returned", field="snapshot") from None
         self._frame = snapshot[1]
         return self
 
@@ -220,8 +233,7 @@ class Session:
             return self._frame
 
         seconds = math.inf if time is None else _arrays.number("time", time)
-        if steps is not None and (steps != steps // 1 or steps < 1):
-            raise ParameterError(f"steps: is {steps}, but must be a whole number, 1 or more", field="steps")
+        most = 0 if steps is None else _arrays.whole("steps", steps, 1, cap=True)
         with shown(progress) as line:
-            told = self._session.solve(seconds, int(steps or 0), line, control())
+            told = self._session.solve(seconds, most, line, control())
         return conclude(told, make)

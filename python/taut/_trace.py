@@ -9,6 +9,7 @@ from typing import Any, Union, overload
 
 import numpy as np
 
+from . import _arrays
 from ._native import native
 from .errors import ParameterError, TautError, TraceError
 
@@ -257,7 +258,9 @@ class Energy:
         >>> taut.energies.isometric.value([[2, 0], [0, 1]])
         6.25
         """
-        matrix = np.asarray(S, dtype=np.float64)
+        matrix = _arrays.array("S", S)
+        if matrix.shape not in ((2, 2), (3, 3)):
+            raise ParameterError(f"S: has the shape {matrix.shape}, but must be (2, 2) or (3, 3)", field="S")
         dim = len(matrix)
         numbers = (np.asarray(a, dtype=np.float64).reshape(-1) for a in (attributes, parameters))
         return float(getattr(native(), f"value_{dim}")(self.native(dim), matrix, measure, *numbers))
@@ -265,9 +268,14 @@ class Energy:
 
 def _one(made: Any) -> Any:
     """What a function of an element has returned, if it is a number of it."""
-    if made is None:
-        raise TraceError("the energy returns None; return a value of the element, as s.S.norm2()")
-    return made
+    made = made[()] if isinstance(made, np.ndarray) and made.ndim == 0 else made
+    if isinstance(made, native().Sym):
+        return made
+    if isinstance(made, (int, float, np.integer, np.floating)) and not isinstance(made, bool):
+        return float(made)
+    what = "None" if made is None else f"an array of the shape {made.shape}" if isinstance(made, np.ndarray) \
+        else f"a {type(made).__name__}"
+    raise TraceError(f"the energy returns {what}; return a value of the element, as s.S.norm2()")
 
 
 def _restore(kind: Any, function: Any, barrier: bool) -> Any:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,24 +17,95 @@ from ._trace import EnergyLike
 from .errors import MeshError, ParameterError
 
 
+#: Dimensions of kinds of cells.
+_DIMENSIONS = {"vertex": 0, "line": 1, "triangle": 2, "quad": 2, "tetrahedron": 3, "pyramid": 3, "wedge": 3, "hexahedron": 3}
+
+
+def of_mesh(
+    points: Any, blocks: Iterable[tuple[str, Any]], known: Mapping[str, str], options: Mapping[str, Any]
+) -> tuple[Any, list[Array], dict[str, Any]]:
+    """What calls take of a mesh of another package: points, its cells of the highest dimension, an array a block, and
+    options. Of a mesh in a plane z = const points and places have two numbers.
+
+    blocks : what the package calls each kind, and its cells; known : what such kinds are called here
+
+    Raises
+    ------
+    ParameterError
+        Where there are none but points and lines, or any of another kind: they would be left out of the certificate,
+        and points of theirs that no other cell has would stay where they are.
+    """
+    own = []
+    for kind, rows in blocks:
+        if kind not in known:
+            raise ParameterError(
+                f"mesh: has {len(rows)} cells of the kind {kind}, which are not known; take them out, or turn them into "
+                f"{', '.join(known)}", field="mesh",
+            )
+        own.append((_DIMENSIONS[known[kind]], np.asarray(rows)))
+    dimension = max((d for d, rows in own if len(rows)), default=0)
+    if dimension < 2:
+        words = ", ".join(name for name, kind in known.items() if _DIMENSIONS[kind] > 1)
+        raise ParameterError(f"mesh: has no cells with an inside: {words}", field="mesh")
+    cells = [rows for d, rows in own if d == dimension and len(rows)]
+    if dimension == 3 or np.shape(points)[1:] != (3,):
+        return points, cells, dict(options)
+    V, z = _plane_of(_arrays.points("points", points))
+    return V, cells, _in_plane(options, z)
+
+
+def _plane_of(points: Array) -> tuple[Array, float]:
+    """Points without z, and their z. Raises `ParameterError` where it is not the same for all."""
+    z = float(points[0, 2]) if len(points) else 0.0
+    if (points[:, 2] != z).any():
+        raise ParameterError(
+            "V: triangles and quads that do not lie in a plane z = const; a surface in space is a shell (taut.shell)",
+            field="V",
+        )
+    return points[:, :2], z
+
+
+def _in_plane(options: Mapping[str, Any], z: float | None) -> dict[str, Any]:
+    """Options of a mesh in a plane: of places with three numbers the last one, which must be z or NaN, is left out."""
+
+    def flat(name: str, rows: Any) -> Any:
+        if z is None or np.ndim(rows) != 2 or np.shape(rows)[1] != 3:
+            return rows
+        places = _arrays.points(name, rows, nan=True)
+        off = np.flatnonzero((places[:, 2] != z) & ~np.isnan(places[:, 2]))
+        if len(off):
+            raise ParameterError(f"{name}: row {off[0]} has z = {places[off[0], 2]}, but the mesh lies in the plane "
+                                 f"z = {z}", field=name, ids=off[:1])
+        return places[:, :2]
+
+    made = {name: flat(name, rows) if name in ("bc", "rest", "initial") else rows for name, rows in options.items()}
+    springs = made.get("springs")
+    if isinstance(springs, (tuple, list)) and len(springs) == 3:
+        made["springs"] = (springs[0], flat("springs", springs[1]), springs[2])
+    return made
+
+
 def _is_table(rows: Any) -> bool:
     """Whether these are rows of numbers, not one row."""
     shape = getattr(rows, "shape", None)
-    return len(shape) == 2 if shape is not None else bool(len(rows)) and hasattr(rows[0], "__len__")
+    if shape is not None:
+        return len(shape) == 2
+    return hasattr(rows, "__len__") and bool(len(rows)) and hasattr(rows[0], "__len__")
 
 
-def _blocks(V: Any, C: Any) -> tuple[Array, list[Array], int]:
-    """Points, cells by kind, and the dimension: that of the points, or 2 for triangles and quads with z = 0."""
+def _blocks(V: Any, C: Any) -> tuple[Array, list[Array], int, float | None]:
+    """Points, cells by kind, the dimension, that of the points, or 2 for triangles in a plane z = const, and that z."""
     points = _arrays.points("V", V, (2, 3))
     given = C if isinstance(C, (list, tuple)) and len(C) and _is_table(C[0]) else [C]
     blocks = [np.ascontiguousarray(_arrays.indices("C", c, (3, 4, 5, 6, 8), len(points))) for c in given]
     if not any(len(c) for c in blocks):
         raise MeshError("the mesh has no cells; give it at least one", fault="empty")
-    dim = 2 if points.shape[1] == 2 or all(c.shape[1] == 3 for c in blocks) else 3
-    if dim == 2 and points.shape[1] == 3 and np.any(points[:, 2]):
-        raise ParameterError("V: triangles that do not lie in the plane z = 0; a surface in space is a shell (taut.shell)",
-                             field="V")
-    return points, blocks, dim
+    if points.shape[1] == 2:
+        return points, blocks, 2, None
+    if not all(c.shape[1] == 3 for c in blocks):
+        return points, blocks, 3, None
+    points, z = _plane_of(points)
+    return points, blocks, 2, z
 
 
 def deform(
@@ -65,7 +137,7 @@ def deform(
     Parameters
     ----------
     V : (n, 3) or (n, 2) array-like
-        Vertices; two columns, or triangles with z = 0: a mesh of the plane.
+        Vertices; two columns, or triangles of one z: a mesh of the plane, whose places may have two numbers or three.
     C : (m, 3 | 4 | 5 | 6 | 8) array-like of int, or a list of such arrays
         Triangles, quads (two columns in V) or tetrahedra, pyramids, wedges, hexahedra; corners in VTK's order.
     b, bc : (k,) and (k, d) array-like
@@ -103,10 +175,11 @@ def deform(
     >>> taut.deform(V, [[0, 1, 2, 3]], [0, 1], [[0, 0, 0], [2, 0, 0]]).x[1]
     array([2., 0., 0.])
     """
-    points, blocks, dim = _blocks(V, C)
+    points, blocks, dim, z = _blocks(V, C)
     cells = sum(len(c) for c in blocks)
+    given = _in_plane({"bc": bc, "springs": springs, "initial": initial, "rest": rest}, z)
     options = {
-        **_options.pins(b, bc, springs, len(points), dim),
+        **_options.pins(b, given["bc"], given["springs"], len(points), dim),
         **_options.energies(energy, dim, cells, weights, attributes, directions, parameters),
         **_options.limits(tolerance, iterations, time_limit, precision),
         "shapes": shapes,
@@ -114,16 +187,20 @@ def deform(
         "device": _options.device(device),
     }
     if slides is not None:
-        options["slide_b"] = _arrays.ids("slides", slides[0], len(points))
-        normals = _arrays.points("slides", slides[1], (dim,), rows=len(options["slide_b"]))
+        try:
+            vertices, across = slides
+        except (TypeError, ValueError):
+            raise ParameterError("slides: must be two: vertices, normals", field="slides") from None
+        options["slide_b"] = _arrays.ids("slides", vertices, len(points))
+        normals = _arrays.points("slides", across, (dim,), rows=len(options["slide_b"]))
         zero = np.flatnonzero(~normals.any(1))
         if len(zero):
             raise ParameterError(f"slides: row {zero[0]} has a normal of zeros", field="slides", ids=zero[:1])
         options["slide_normals"] = normals
     if rest is not None:
-        options["rest"] = _arrays.points("rest", rest, (2, 3), rows=len(points))
+        options["rest"] = _arrays.points("rest", given["rest"], (2, 3), rows=len(points))
     if initial is not None:
-        options["initial"] = _arrays.points("initial", initial, (dim,), rows=len(points))
+        options["initial"] = _arrays.points("initial", given["initial"], (dim,), rows=len(points))
     return call(getattr(native(), f"deform{dim}"), points, blocks, options, progress=progress, make=Map.of)
 
 
@@ -180,7 +257,9 @@ def smooth(
     >>> taut.smooth(square, [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]).x[4].round(3).tolist()
     [1.0, 1.0]
     """
-    points, blocks, dim = _blocks(V, C)
+    if rest is not None and shapes == "regular":
+        raise ParameterError('rest: has no effect with shapes="regular"; give shapes="rest"', field="rest")
+    points, blocks, dim, z = _blocks(V, C)
     options = {
         **_options.limits(tolerance, iterations, time_limit, precision),
         "boundary": boundary,
@@ -188,6 +267,7 @@ def smooth(
         "worst_exponent": worst_exponent,
         "device": _options.device(device),
     }
+    rest = _in_plane({"rest": rest}, z)["rest"]
     return _on_cells(f"smooth{dim}", points, blocks, options, {"fixed": fixed}, rest, progress)
 
 
@@ -233,7 +313,7 @@ def untangle(
     >>> taut.certify(C, square).flipped.tolist(), bool(taut.certify(C, taut.untangle(square, C, [0, 1, 2, 3]).x))
     ([1, 2], True)
     """
-    points, blocks, dim = _blocks(X, C)
+    points, blocks, dim, z = _blocks(X, C)
     options: dict[str, Any] = {
         "refine": refine,
         "rounds": rounds,
@@ -241,6 +321,7 @@ def untangle(
         "time_limit": time_limit,
         "device": _options.device(device),
     }
+    rest = _in_plane({"rest": rest}, z)["rest"]
     return _on_cells(f"untangle{dim}", points, blocks, options, {"b": b}, rest, progress)
 
 

@@ -11,7 +11,9 @@ Examples
 
 from __future__ import annotations
 
+from . import _arrays
 from ._trace import BuiltinEnergy
+from .errors import ParameterError
 
 #: Minimal at rotations: |S|^2 (1 + 1 / J^2) of triangles, the symmetric Dirichlet energy; shape * area of tetrahedra.
 isometric = BuiltinEnergy("isometric")
@@ -25,12 +27,15 @@ area = BuiltinEnergy("area")
 
 def shape_power(power: int = 2) -> BuiltinEnergy:
     """The shape energy to a power: the larger it is, the more the worst elements count."""
-    return BuiltinEnergy("shape_power", float(power))
+    return BuiltinEnergy("shape_power", _arrays.number("power", power))
 
 
 def neo_hookean(poisson: float = 0.3) -> BuiltinEnergy:
     """A compressible neo-Hookean solid of Young's modulus 1 and this Poisson ratio, in (-1, 0.5)."""
-    return BuiltinEnergy("neo_hookean", poisson)
+    ratio = _arrays.number("poisson", poisson)
+    if not -1 < ratio < 0.5:
+        raise ParameterError(f"poisson: is {poisson}, but must be above -1 and below 0.5", field="poisson")
+    return BuiltinEnergy("neo_hookean", ratio)
 
 
 __all__ = ["area", "isometric", "neo_hookean", "shape", "shape_power"]

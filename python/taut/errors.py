@@ -73,7 +73,7 @@ class FileError(TautError, OSError):
 
 
 class DeviceError(TautError):
-    """No OpenCL device, or one that failed; `remedy` says what to do."""
+    """The device that was asked for is not there, or one failed; `remedy` says what to do."""
 
     remedy: str = ""
 
@@ -81,12 +81,6 @@ class DeviceError(TautError):
         if not self.remedy and "no OpenCL platform is installed" in message:
             self.remedy = _drivers.remedy()
             message = f"there is no OpenCL device; {self.remedy}\n{message}"
-        elif not self.remedy and "libOpenCL" in message.partition(":")[0]:
-            self.remedy = (
-                "install the loader of OpenCL drivers: `apt install ocl-icd-libopencl1`, "
-                "or `conda install -c conda-forge ocl-icd`"
-            )
-            message = f"there is no OpenCL loader; {self.remedy}\n{message}"
         super().__init__(message, **more)
 
 
@@ -124,8 +118,9 @@ class _WithBest(BaseException):
     @property
     def best(self) -> Any:
         """The best valid result by then, or None. Where the work had not ended within 0.4 s, it is waited for."""
-        if self._later is not None:
-            self._best = self._later()
+        later = self._later
+        if later is not None:
+            self._best = later()
             self._later = None
         return self._best
 

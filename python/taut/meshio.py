@@ -3,28 +3,29 @@
 
 from __future__ import annotations
 
+import copy
 from typing import Any
 
 import numpy as np
 
 from . import _volumes
-from .errors import ParameterError
 
-_SOLID, _FLAT = ("tetra", "pyramid", "wedge", "hexahedron"), ("triangle", "quad")
+#: Cells by their names, with the names that taut knows.
+_KINDS = {"vertex": "vertex", "line": "line", "triangle": "triangle", "quad": "quad", "tetra": "tetrahedron",
+          "pyramid": "pyramid", "wedge": "wedge", "hexahedron": "hexahedron"}
+
+
+def _parts(mesh: Any, options: dict[str, Any]) -> Any:
+    return _volumes.of_mesh(mesh.points, [(str(block.type), block.data) for block in mesh.cells], _KINDS, options)
 
 
 def cells(mesh: Any) -> list[Any]:
-    """The cells of the highest dimension, an array a block. Raises `ParameterError` where there are none."""
-    for kinds in (_SOLID, _FLAT):
-        blocks = [np.asarray(block.data) for block in mesh.cells if block.type in kinds]
-        if blocks:
-            return blocks
-    raise ParameterError("mesh: has no cells that are known: " + ", ".join(_SOLID + _FLAT), field="mesh")
+    """The cells of the highest dimension, an array a block. Raises `ParameterError` where there are none, or others."""
+    blocks: list[Any] = _parts(mesh, {})[1]
+    return blocks
 
 
 def _moved(mesh: Any, x: Any) -> Any:
-    import copy
-
     made = copy.copy(mesh)
     points = np.array(mesh.points, dtype=np.float64)
     points[:, : x.shape[1]] = x
@@ -33,15 +34,19 @@ def _moved(mesh: Any, x: Any) -> Any:
 
 
 def deform(mesh: Any, b: Any, bc: Any, **options: Any) -> Any:
-    """A copy of a `meshio.Mesh` whose vertices `b` come to `bc`; see `taut.deform`."""
-    return _moved(mesh, _volumes.deform(mesh.points, cells(mesh), b, bc, **options).x)
+    """A copy of a `meshio.Mesh` whose vertices `b` come to `bc`; see `taut.deform`. Of a mesh in a plane z = const
+    places have two numbers, or three, the last one z."""
+    V, C, given = _parts(mesh, {"b": b, "bc": bc, **options})
+    return _moved(mesh, _volumes.deform(V, C, **given).x)
 
 
 def smooth(mesh: Any, **options: Any) -> Any:
     """A copy with better shaped cells; see `taut.smooth`."""
-    return _moved(mesh, _volumes.smooth(mesh.points, cells(mesh), **options).x)
+    V, C, given = _parts(mesh, options)
+    return _moved(mesh, _volumes.smooth(V, C, **given).x)
 
 
 def untangle(mesh: Any, b: Any = None, **options: Any) -> Any:
     """A copy without inverted cells; see `taut.untangle`."""
-    return _moved(mesh, _volumes.untangle(mesh.points, cells(mesh), b, **options).x)
+    V, C, given = _parts(mesh, {"b": b, **options})
+    return _moved(mesh, _volumes.untangle(V, C, **given).x)

@@ -6,11 +6,13 @@ from __future__ import annotations
 from typing import Any
 
 from ._atlas import atlas
+from ._maps import square
 from ._maps import unwrap as _map
 
 
 def unwrap(mesh: Any, image: Any = None, *, one_chart: bool = False, **options: Any) -> Any:
-    """The same mesh with texture coordinates, as `trimesh.Trimesh.unwrap` returns it.
+    """The same mesh with texture coordinates, as `trimesh.Trimesh.unwrap` returns it. They are numbers of float32, as
+    models are written with, and certified as these.
 
     Parameters
     ----------
@@ -27,11 +29,11 @@ def unwrap(mesh: Any, image: Any = None, *, one_chart: bool = False, **options: 
     textured: Any = trimesh.visual.TextureVisuals
 
     if one_chart:
-        flat = _map(mesh.vertices, mesh.faces, **{"cut": True, "placement": "unit_square", **options})
+        flat = _map(mesh.vertices, mesh.faces, **{"cut": True, **square(options), "single": True, **options})
         whole = flat.faces is None or flat.vmapping is None
         vmapping, faces, uv = slice(None) if whole else flat.vmapping, mesh.faces if whole else flat.faces, flat.uv
     else:
-        vmapping, faces, uv = atlas(mesh.vertices, mesh.faces, **options)
+        vmapping, faces, uv = atlas(mesh.vertices, mesh.faces, **{"single": True, **options})
     return trimesh.Trimesh(
         vertices=mesh.vertices[vmapping],
         faces=faces,

@@ -109,6 +109,8 @@ def test_what_is_masked_is_not_read(bowl):
     masked[3, 1] = np.ma.masked
     with pytest.raises(taut.ParameterError, match="V: row 3 is masked") as e:
         taut.unwrap(masked, F)
+    with pytest.raises(taut.ParameterError, match="V: row 3 is masked"):
+        taut.unwrap(list(masked), F)
     assert e.value.ids == [3]
     triangles = np.ma.masked_array(F, mask=np.zeros(F.shape, bool))
     triangles[5] = np.ma.masked
@@ -161,3 +163,14 @@ def test_a_map_of_too_few_rows_is_named(bowl):
 def test_sizes_near_the_ends_of_doubles_are_mapped(bowl, size):
     V, F = bowl
     assert taut.unwrap(V * size, F).certified
+
+
+def test_columns_of_packed_records_are_read(bowl):
+    V, F = bowl
+    points = np.zeros(len(V), dtype=[("flag", "u1"), ("place", "f8", 3)])
+    cells = np.zeros(len(F), dtype=[("v", "i4", 3), ("tag", "u2")])
+    points["place"], cells["v"] = V, F
+    assert points["place"].strides == (25, 8) and cells["v"].strides == (14, 4)
+    wanted = taut.unwrap(V, F).uv
+    assert (taut.unwrap(points["place"], cells["v"]).uv == wanted).all()
+    assert taut.certify(cells["v"], wanted) and (taut.quality(points["place"], F, wanted)["flips"].elements == len(F))

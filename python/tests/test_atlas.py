@@ -173,3 +173,30 @@ def test_seams_avoid_edges_that_weigh_much(torus):
     heavy = taut.atlas(V, F, seam_weights=np.c_[ends, np.where(here, 50.0, 1.0)])
     light = taut.atlas(V, F, seam_weights=np.c_[ends, np.where(here, 1.0, 50.0)])
     assert length_there(heavy) < length_there(light)
+
+
+def test_copies_at_one_place_are_meshes_of_their_own(bowl):
+    V, F = bowl
+    made = taut.atlas([(V, F), (V, F), (V + [0, 0, 9], F)])
+    areas = [np.abs(np.linalg.det(np.c_[m.corner_uv, np.ones((len(F), 3, 1))])) for m in made]
+    assert all((a > 0).all() for a in areas) and (made[0].chart.min() >= 0) and len({m.chart[0] for m in made}) == 3
+
+
+def test_arguments_of_an_atlas_that_would_have_no_effect_are_refused(bowl):
+    V, F = bowl
+    uv, m = V[:, :2], len(F)
+    for field, given in [("parts", {"parts": np.zeros(m)}), ("polygons", {"polygons": np.zeros(m)}), ("uv", {"uv": uv}),
+                         ("densities", {"densities": np.ones(m)}), ("charts", {"charts": "keep"})]:
+        with pytest.raises(taut.ParameterError) as e:
+            taut.atlas([(V, F)], **given)
+        assert e.value.field == field
+    for field, given in [("uv", {"uv": uv}), ("weld", {"weld": True, "repair": False}), ("least_fill", {"least_fill": 0.5}),
+                         ("prefer", {"charts": "pack", "uv": uv, "prefer": "one"}),
+                         ("prefer", {"charts": "keep", "prefer": "packing"}),
+                         ("mean_distortion", {"charts": "pack", "uv": uv, "mean_distortion": 4.1}),
+                         ("hide_seams", {"charts": "keep", "hide_seams": 1}),
+                         ("symmetric", {"charts": "keep", "symmetric": True}),
+                         ("parts", {"parts": np.full(m, 0.5)}), ("polygons", {"polygons": np.full(m, 2.0**40)})]:
+        with pytest.raises(taut.ParameterError) as e:
+            taut.atlas(V, F, **given)
+        assert e.value.field == field

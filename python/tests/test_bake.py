@@ -55,7 +55,7 @@ def test_errors_name_arguments_of_python(torus):
         ((image, uv, uv), dict(size="large"), "size"),
         ((image, uv, uv), dict(samples=0), "samples"),
         ((image, uv, uv), dict(gutter=-1), "gutter"),
-        ((image, uv, uv), dict(wrap="mirror"), "wrap"),
+        ((image, uv, uv), dict(wrap="fold"), "wrap"),
         ((image, uv, uv[:-1]), {}, "new_uv"),
     ):
         with pytest.raises(taut.ParameterError) as caught:

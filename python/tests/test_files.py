@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import os
+import threading
+
 import numpy as np
 import pytest
 
@@ -107,3 +110,114 @@ def test_kinds_of_files_are_listed(tmp_path):
 
 def test_devices_are_listed():
     assert any(not d.refusal for d in taut.devices())
+
+
+def ways_of_writing():
+    """Each way to write one file, as a function of its path."""
+    V, F = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]]), np.array([[0, 1, 2]])
+    uv = V[:, :2]
+    piece = taut.patterns.Piece(uv, [], [0], uv[F])
+
+    def dxf(path):
+        pytest.importorskip("ezdxf")
+        taut.patterns.write_dxf(path, [piece])
+
+    return {
+        "bare": lambda path: taut.write(path, V=V, F=F),
+        "textured": lambda path: taut.write(path, V=V, F=F, uv=uv),
+        "xatlas": lambda path: taut.compat.xatlas.export(path, V, F, uv),
+        "patch": lambda path: taut.cortex.write_patch(path, [0, 1, 2], V),
+        "dxf": dxf,
+    }
+
+
+@pytest.mark.parametrize("way", ways_of_writing())
+def test_what_is_written_keeps_links_and_modes_and_follows_no_planted_ones(tmp_path, way):
+    write = ways_of_writing()[way]
+    target, link, mine = tmp_path / "target.obj", tmp_path / "link.obj", tmp_path / "mine.txt"
+    target.write_text("old")
+    target.chmod(0o600)
+    link.symlink_to("target.obj")
+    mine.write_text("mine")
+    for name in ("link.obj", "target.obj"):
+        (tmp_path / f"{name}.{os.getpid()}.part").symlink_to("mine.txt")
+    write(link)
+    assert link.is_symlink() and target.read_bytes() != b"old" and target.stat().st_mode & 0o777 == 0o600
+    assert mine.read_text() == "mine" and len(list(tmp_path.iterdir())) == 5
+    with pytest.raises(taut.FileError):
+        write(tmp_path / "nowhere" / "x.obj")
+
+
+def test_arguments_that_would_have_no_effect_are_refused(square, tmp_path):
+    V, F = taut.read(square)
+    out = tmp_path / "out.obj"
+    for field, given in [("V", {"like": square, "x": V, "V": V}), ("F", {"like": square, "x": V, "F": F}),
+                         ("x", {"V": V, "F": F, "x": V}), ("x", {"like": square})]:
+        with pytest.raises(taut.ParameterError) as e:
+            taut.write(out, **given)
+        assert e.value.field == field and not out.exists()
+    for field in ("zone", "texcoord_set"):
+        with pytest.raises(taut.ParameterError, match=field):
+            taut.read(square, **{field: 1})
+    with pytest.raises(taut.ParameterError, match="texcoord_set"):
+        taut.read(square, texcoord_set=10**12)
+
+
+def test_a_name_that_says_another_format_is_refused(square, tmp_path):
+    V, F = taut.read(square)
+    (tmp_path / "a.ply").write_text("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                                    "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
+    taut.write(tmp_path / "a.glb", V=V, F=F, uv=V[:, :2])
+    for name, given in [("o.ply", {"like": tmp_path / "a.ply", "uv": np.eye(3)[:, :2]}), ("o.stl", {"like": square, "x": V}),
+                        ("o.glb", {"like": square, "uv": V[:, :2]}), ("o.txt", {"like": square, "x": V}),
+                        ("o.glb", {"like": tmp_path / "a.glb", "x": V})]:
+        with pytest.raises(taut.ParameterError, match="path: is .* but must end with|x: places of a glTF model stay"):
+            taut.write(tmp_path / name, **given)
+        assert not (tmp_path / name).exists()
+    taut.write(tmp_path / "o.obj", like=tmp_path / "a.ply", uv=np.eye(3)[:, :2])
+    taut.write(tmp_path / "o.PLY", like=tmp_path / "a.ply", x=np.eye(3))
+
+
+@pytest.mark.parametrize("z", [0.0, 5.0])
+def test_quads_of_the_plane_are_smoothed_as_they_are_read(tmp_path, z):
+    lines = ["# vtk DataFile Version 3.0", "plate", "ASCII", "DATASET UNSTRUCTURED_GRID", "POINTS 9 double"]
+    lines += [f"{i + 0.2 * (i == j == 1)} {j} {z}" for j in range(3) for i in range(3)]
+    lines += ["CELLS 4 20", *(f"4 {a} {a + 1} {a + 4} {a + 3}" for a in (0, 1, 3, 4)), "CELL_TYPES 4", *"9999", ""]
+    (tmp_path / "plate.vtk").write_text("\n".join(lines))
+    mesh = taut.read(tmp_path / "plate.vtk")
+    made = taut.smooth(*mesh)
+    assert np.allclose(made.x[4], [1, 1], atol=0.01)
+    taut.write(tmp_path / "out.vtk", like=mesh, x=made.x)
+    assert (taut.read(tmp_path / "out.vtk").V == np.c_[made.x, np.full(9, z)]).all()
+
+
+def test_names_of_files_that_are_none_and_coordinates_that_fit_no_corner_are_refused(tmp_path):
+    V, F = [[0, 0, 0], [1, 0, 0], [0, 1, 0.0]], [[0, 1, 2]]
+    (tmp_path / "a").write_text("kept")
+    for name in (f"{tmp_path}/a\0.obj", None, 3, f"{tmp_path}/\udcff.obj"):
+        with pytest.raises(taut.ParameterError, match="path: is"):
+            taut.write(name, V=V, F=F)
+        with pytest.raises(taut.ParameterError, match="path: is"):
+            taut.read(name)
+    with pytest.raises(taut.ParameterError, match="like: is 3"):
+        taut.write(tmp_path / "b.obj", like=3, uv=V)
+    assert (tmp_path / "a").read_text() == "kept" and [p.name for p in tmp_path.iterdir()] == ["a"]
+    taut.write(os.fsencode(tmp_path / "b.obj"), V=V, F=F)
+    assert taut.read(os.fsencode(tmp_path / "b.obj")).F.tolist() == F
+    for uv in ("b.obj", np.full((2, 3, 2), np.nan), np.full((1, 2, 3), np.nan), [[[0, np.nan], [1, np.inf], [0, 1]]]):
+        with pytest.raises(taut.ParameterError, match="uv: "):
+            taut.write(tmp_path / "c.obj", V=V, F=F, uv=uv)
+    assert not (tmp_path / "c.obj").exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes")
+def test_a_thread_may_read_the_pipe_that_is_written(bowl, tmp_path):
+    os.mkfifo(tmp_path / "pipe.obj")
+    found = []
+    reader = threading.Thread(target=lambda: found.append((tmp_path / "pipe.obj").read_text()), daemon=True)
+    reader.start()
+    V, F = bowl
+    taut.write(tmp_path / "pipe.obj", V=V, F=F, uv=V[:, :2])
+    reader.join(30)
+    assert found and found[0].count("vt ") == len(V)

@@ -50,9 +50,11 @@ def test_the_argument_is_named_as_python_has_it(call, field, words):
     assert all(word in str(e.value) for word in words), str(e.value)
 
 
-def test_an_energy_without_a_value_is_told():
-    with pytest.raises(taut.TraceError, match="returns None"):
-        taut.unwrap(V, F, energy=lambda s: None)
+@pytest.mark.parametrize("made, told", [(lambda s: None, "None"), (lambda s: "1", "a str"), (lambda s: s.J > 1, "a SymBool"),
+                                        (lambda s: s.S, "an array of the shape .2, 2."), (lambda s: True, "a bool")])
+def test_an_energy_without_a_value_is_told(made, told):
+    with pytest.raises(taut.TraceError, match=f"returns {told}; return a value"):
+        taut.unwrap(V, F, energy=made)
 
 
 def test_surfaces_that_are_no_disk_get_the_option_that_helps(torus):

@@ -70,3 +70,11 @@ def test_all_fixed_and_none_at_all():
     uv, F = squares(1, 0.5)
     assert (taut.pack(uv, F, fixed=[1, 0]).uv == uv).all()
     assert taut.pack(np.zeros((0, 2)), np.zeros((0, 3), int)).uv.shape == (0, 2)
+
+
+@pytest.mark.parametrize("size", [1e-300, 1e300])
+def test_sizes_near_the_ends_of_doubles_are_packed(size):
+    uv, F = np.array([[0, 0], [1, 0], [0, 1], [5, 5], [6, 5], [5, 6.0]]), [[0, 1, 2], [3, 4, 5]]
+    made, plain = taut.pack(uv * size, F), taut.pack(uv, F)
+    assert made.utilization == pytest.approx(plain.utilization, rel=0.05) and taut.certify(F, made.uv)
+    assert made.scale * size == pytest.approx(plain.scale, rel=0.05)

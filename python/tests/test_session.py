@@ -121,3 +121,15 @@ def test_arguments_of_pins_are_named(bowl):
         with pytest.raises(taut.ParameterError, match="v: row 0 names -1"):
             s.pin(-1, [0, 0])
         assert s.pins.tolist() == []
+
+
+def test_steps_beyond_all_bounds_and_arguments_without_effect(bowl):
+    V, F = bowl
+    with taut.Session(V, F) as s:
+        assert s.solve(steps=10**12).converged
+    for field, given in [("thickness", {"thickness": 0.1}), ("initial", {"kind": "shell", "initial": V}),
+                         ("energy", {"kind": "shell", "energy": "shape"}),
+                         ("weights", {"kind": "shell", "weights": np.ones(len(F))})]:
+        with pytest.raises(taut.ParameterError) as e:
+            taut.Session(V, F, **given)
+        assert e.value.field == field

@@ -146,6 +146,23 @@ def test_blocks_and_mip_maps():
     assert "one of them" in run("atlas", "ball.obj", "-o", "x.obj", "--mip-levels", 2, "--padding", 2, code=2)
 
 
+def test_charts_below_a_texel_are_told():
+    """A blade: its long sides are less than a texel wide, unless the resolution is high."""
+    box = [(x, y, z) for z in (0, 0.01) for y in (0, 1) for x in (0, 100)]
+    sides = ((1, 3, 4, 2), (5, 6, 8, 7), (1, 2, 6, 5), (3, 7, 8, 4), (1, 5, 7, 3), (2, 4, 8, 6))
+    text = ["v %g %g %g" % p for p in box] + ["f %d %d %d\nf %d %d %d" % (a, b, c, a, c, d) for a, b, c, d in sides]
+    (FOLDER / "blade.obj").write_text("\n".join(text) + "\n")
+    seams = [(a, b) for side in sides for a, b in zip(side, side[1:] + side[:1]) if a < b]
+    (FOLDER / "blade.txt").write_text("".join("%d %d\n" % (a - 1, b - 1) for a, b in seams))
+
+    def notes(*options):
+        run("atlas", "blade.obj", "-o", "blade.out.obj", "--seams", "blade.txt", "--quiet", "--stats", "blade.json", *options)
+        return [n for n in json.loads((FOLDER / "blade.json").read_text())["notes"] if "thinner than a texel" in n]
+
+    assert notes("--resolution", 1024) and notes("--resolution", 1024)[0].startswith("4 charts are"), notes("--resolution", 1024)
+    assert notes("--texels-per-unit", 4, "--resolution", 1024) and not notes("--texels-per-unit", 200, "--resolution", 32768)
+
+
 def test_a_tile_for_each_material():
     told = atlas("--tile-per-material")
     _, _, uv, corners, materials = read("out.obj")

@@ -205,7 +205,7 @@ def parts_holes_and_padding():
     more, others = torus(24, 10)
     both = points + [[x + 5, y, z] for x, y, z in more], faces[2:] + [[v + len(points) for v in f] for f in others]
     write("both.obj", *both)
-    run("atlas", "both.obj", "-o", "out.obj", "--padding", 8, "--resolution", 256, "--upright", "--stats", "s.json",
+    run("atlas", "both.obj", "-o", "out.obj", "--padding", 8, "--resolution", 256, "--no-rotation", "--stats", "s.json",
         "--max-distortion", 5)
     s = stats("s.json")
     assert s["least_distance"] >= 8 * (1 - 1e-9) and s["worst_distortion"] <= 5
@@ -306,7 +306,7 @@ def pinned_charts():
     assert len(pinned) == 2 and len(set(chart)) > 3
     pathlib.Path("pins").write_text(f"0 # one face of each\n{len(faces) - 1}\n")
     for arguments in (["--charts", "keep"], [], ["--udim", "2"]):
-        done = run("atlas", "once.obj", "-o", "out.obj", "--pin", "pins", "--stats", "s.json", *arguments)
+        done = run("atlas", "once.obj", "-o", "out.obj", "--keep-charts", "pins", "--stats", "s.json", *arguments)
         assert "2 charts stay where they were" in done.stderr, done.stderr
         judge("out.obj", points, faces, tiles=2 if arguments == ["--udim", "2"] else 1)
         _, now, _, there = read("out.obj")
@@ -327,13 +327,13 @@ def pinned_charts():
     for f, words in ((lambda x, y: (1 - x, y), "mirrored"), (lambda x, y: (x + 0.5, y), "leaves the square"),
                      (lambda x, y: (0.5 + 0.01 * (x % 0.1), 0.5 + 0.01 * y), "")):
         changed("moved.obj", f)
-        done = run("atlas", "moved.obj", "-o", "x.obj", "--pin", "pins", code=4)
+        done = run("atlas", "moved.obj", "-o", "x.obj", "--keep-charts", "pins", code=4)
         assert "pinned chart of triangle" in done.stderr and words in done.stderr, done.stderr
     pathlib.Path("all").write_text(" ".join(map(str, range(len(faces)))))
-    assert "none is left to lay" in run("atlas", "once.obj", "-o", "x.obj", "--pin", "all", code=2).stderr
+    assert "--keep-charts all: names a face of every chart" in run("atlas", "once.obj", "-o", "x.obj", "--keep-charts", "all", code=2).stderr
     pathlib.Path("beyond").write_text(f"{len(faces)}")
-    assert "is not there" in run("atlas", "once.obj", "-o", "x.obj", "--pin", "beyond", code=4).stderr
-    assert "no texture coordinates" in run("atlas", "ball.obj", "-o", "x.obj", "--pin", "pins", code=4).stderr
+    assert "is not there" in run("atlas", "once.obj", "-o", "x.obj", "--keep-charts", "beyond", code=4).stderr
+    assert "no texture coordinates" in run("atlas", "ball.obj", "-o", "x.obj", "--keep-charts", "pins", code=4).stderr
 
 
 def symmetric_charts():
@@ -445,6 +445,15 @@ def copies():
                 (digits, s["charts"], s["stacked"])
             assert all(cross(*(uv[f[k]] for k in (0, 1, 2))) > 0 for _, uv, _, texcoords in [read("out.obj")]
                        for f in texcoords if len(f) == 4)
+    # Corners may be off by a thousandth of the size, 1.8 here, in any direction, or all by a scale.
+    dice = random.Random(8)
+    near = [[c + dice.uniform(-1, 1) * 8e-4 for c in p] for p in bracket[0]]
+    scaled = [[c * 1.0007 for c in p] for p in bracket[0]]
+    for other in (near, scaled):
+        write("copies.obj", bracket[0] + [turned(p, 1) for p in other], bracket[1] + [[12 + v for v in f] for f in bracket[1]])
+        run("atlas", "copies.obj", "-o", "out.obj", "--stack", "similar", "--stats", "s.json")
+        s = stats("s.json")
+        assert 2 * s["stacked"] == s["charts"], (s["charts"], s["stacked"])
     # What only looks like a copy is none: a bracket whose leg is a hundredth longer.
     other = [[p[0], p[1] + 0.02 * (p[1] > 1.5), p[2]] for p in bracket[0]]
     write("copies.obj", bracket[0] + [turned(p, 1) for p in other], bracket[1] + [[12 + v for v in f] for f in bracket[1]])
@@ -461,7 +470,7 @@ def charts_larger_than_tiles():
         [[81 * y + x, 81 * y + x + 1, 81 * y + x + 82, 81 * y + x + 81] for y in range(2) for x in range(80)]
     for (points, faces), texels in ((cube, 200), (long, 40)):
         write("large.obj", points, faces)
-        for more in ([], ["--prefer", "packing"], ["--upright"]):
+        for more in ([], ["--prefer", "packing"], ["--no-rotation"]):
             told = run("atlas", "large.obj", "-o", "out.obj", "--texels-per-unit", texels, "--resolution", 256, "--stats",
                        "s.json", *more)
             s = stats("s.json")
@@ -527,13 +536,13 @@ def polygons_as_fans():
             done = run(command, "dart.obj", "-o", "out.obj", "--stats", "s.json")
             told = json.loads(pathlib.Path("s.json").read_text(encoding="utf-8"))
             told = told if command == "atlas" else told["after"] if "reversed_fans" in told.get("after", {}) else told
-            assert ("cuts polygons as fans" in done.stderr + done.stdout) == (not whole)
+            assert ("fan triangulation" in done.stderr + done.stdout) == (not whole)
             _, uv, _, texcoords = read("out.obj")
             over = sum(min(cross(uv[t[0]], uv[t[k]], uv[t[k + 1]]) for k in (1, 2)) <= 0 for t in texcoords)
             assert told["reversed_fans"] == over and not (whole and over), (command, first, over, told["reversed_fans"])
             assert command == "unwrap" or whole or over > 0, over
         done = run("check", "dart.obj")
-        assert ("cuts polygons as fans" in done.stderr + done.stdout) == (not whole)
+        assert ("fan triangulation" in done.stderr + done.stdout) == (not whole)
     # Squares of a hill with a corner in the middle of a side: flat triangles of fans in space may turn over in the map.
     n, number, points, faces = 8, {}, [], []
 
@@ -559,6 +568,7 @@ def polygons_as_fans():
         assert 0 < over == told["reversed_fans"], (command, over, told["reversed_fans"])
 
 
+
 def sizes():
     """Texture coordinates do not depend on the size of a surface, even where areas are no numbers any more."""
     points, faces = ball(6)
@@ -570,6 +580,11 @@ def sizes():
         judge("out.obj", big, faces)
         uv.append(read("out.obj")[1])
     assert uv[1] == uv[2] and len(uv[0]) == len(uv[1])
+    write("sized.obj", *ball(12))
+    for density in ("1e-300", "1e-16"):
+        refused = run("atlas", "sized.obj", "-o", "x.obj", "--texels-per-unit", density, code=4).stderr
+        assert "too small for the digits of the file; ask for more texels a unit" in refused, refused
+    run("atlas", "sized.obj", "-o", "out.obj", "--texels-per-unit", "0.01")
 
 
 def wrong_usage():
@@ -595,7 +610,7 @@ def wrong_usage():
                              (["ball.obj", "ball.obj", "-o", "x.glb"], "as .obj"),
                              (["-", "-", "-o", "x.obj"], "standard input"),
                              (["ball.obj", "ball.obj", "ball.obj", "-o", "x.obj", "-o", "y.obj"], "outputs"),
-                             (["ball.obj", "ball.obj", "-o", "x.obj", "--pin", "ball.obj"], "--pin"),
+                             (["ball.obj", "ball.obj", "-o", "x.obj", "--keep-charts", "ball.obj"], "--keep-charts"),
                              (["ball.obj", "ball.obj", "-o", "x.obj", "--seams", "ball.obj"], "--seams")):
         assert words in run("atlas", *arguments, code=2).stderr
     assert run("atlas", "none.obj", "-o", "x.obj", code=3).stderr

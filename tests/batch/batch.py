@@ -34,7 +34,7 @@ def manifest(jobs, path="jobs.jsonl"):
 
 
 def command(*options, jobs="jobs.jsonl", out="results.jsonl"):
-    return [taut, "batch", "--manifest", jobs, "--out", out, "--cache", caches, *options]
+    return [taut, "batch", "--manifest", jobs, "--output", out, "--cache", caches, *options]
 
 
 def batch(*options, code=0, **names):
@@ -132,6 +132,7 @@ def malformed():
                        ('{"id": "b", "args": ["check"], "time_limit": -1}', "time_limit is no positive number"),
                        ('{"id": "b", "args": ["check"], "memory_limit": "1G"}', "memory_limit is no positive number"),
                        ('{"id": "b", "args": ["check"], "timelimit": 1}', "has the key timelimit"),
+                       ('{"id": "b", "args": ["check"], "time_limit": 1, "time_limit": 2}', "has the key time_limit twice"),
                        ('{"id": "a", "args": ["check"]}', "has the id a of line 1"),
                        ('{"id": "b", "args": ["batch"]}', "is no job"), ('{"id": "b", "args": ["view", "a.obj"]}', "is no job")):
         with open("jobs.jsonl", "w") as f:
@@ -142,7 +143,7 @@ def malformed():
     batch(jobs="none.jsonl", code=3)
     manifest([])
     assert "0 jobs: 0 done" in batch()
-    for options in (("--shard", "0/4"), ("--shard", "5/4"), ("--shard", "x"), ("--jobs", "0"), ("--memory-limit", "-5")):
+    for options in (("--shard", "0/4"), ("--shard", "5/4"), ("--shard", "x"), ("--jobs", "0"), ("--memory-limit", "-5"), ("--memory-limit", "0.5")):
         batch(*options, code=2)
     batch("--resume", out="-", code=2)
     batch(out="jobs.jsonl", code=2)
@@ -296,7 +297,7 @@ def schedulers():
 def stays():
     """--stdin: jobs that come while others run, until the input ends."""
     sheet("a.obj", 2)
-    out = [taut, "batch", "--stdin", "--out", "-", "--cache", caches, "--quiet"]
+    out = [taut, "batch", "--stdin", "--output", "-", "--cache", caches, "--quiet"]
     run = subprocess.Popen(out, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     job = lambda id, **more: json.dumps({"id": id, "args": ["check", "a.obj"]} | more) + "\n"
 
@@ -321,6 +322,32 @@ def stays():
     run.send_signal(signal.SIGINT)
     assert run.wait(timeout=300) == 130
     assert subprocess.run([*out, "--shard", "1/2"], stdin=subprocess.DEVNULL, capture_output=True).returncode == 2
+
+
+def pipes():
+    """Pipes are the job's alone: the batch neither waits at one nor takes what another program writes."""
+    sheet("a.obj", 3)
+    os.mkfifo("in.pipe.obj")
+    os.mkfifo("stats.pipe.json")
+    writer = subprocess.Popen(["cp", "a.obj", "in.pipe.obj"])
+    reader = subprocess.Popen(["cat", "stats.pipe.json"], stdout=subprocess.PIPE, text=True)
+    manifest([{"id": "a", "args": ["unwrap", "in.pipe.obj", "-o", "pipe.flat.obj", "--stats", "stats.pipe.json", "--quiet"]}], "pipes.jsonl")
+    run = subprocess.Popen(command(jobs="pipes.jsonl", out="pipes.results"))
+    try:
+        assert run.wait(timeout=30) == 0 and writer.wait(timeout=10) == 0
+    finally:
+        for one in (run, writer, reader):
+            one.kill()
+    assert json.loads(reader.stdout.read())["stop"] == "gradient"
+    assert results("pipes.results")["a"]["outputs"].keys() == {"pipe.flat.obj", "stats.pipe.json"}
+
+
+def much_memory():
+    """Limits of memory beyond all numbers are none."""
+    sheet("a.obj", 3)
+    manifest([{"id": "a", "args": ["check", "a.obj"]}], "much.jsonl")
+    for limit in ("1e19", "1e20", "1e300", "inf"):
+        batch("--memory-limit", limit, jobs="much.jsonl", out=f"much.{limit}")
 
 
 def workers():
@@ -350,7 +377,7 @@ def parallel():
         sheet(f"{k}.obj", 3)
     manifest([{"id": str(k), "args": ["unwrap", f"{k}.obj", "-o", f"{k}.flat.obj", "--quiet"]} for k in range(6)] +
              [{"id": "none", "args": ["check", "none.obj"]}])
-    run = subprocess.run(["parallel", "--jobs", "2", taut, "batch", "--manifest", "jobs.jsonl", "--shard", "{}/3", "--resume", "--out", "{}.jsonl",
+    run = subprocess.run(["parallel", "--jobs", "2", taut, "batch", "--manifest", "jobs.jsonl", "--shard", "{}/3", "--resume", "--output", "{}.jsonl",
                           "--cache", caches, ":::", "1", "2", "3"], capture_output=True, text=True, timeout=300)
     assert run.returncode == 1, run  # one part has a failure
     whole = results("1.jsonl") | results("2.jsonl") | results("3.jsonl")
@@ -365,7 +392,7 @@ def parallel():
     assert run.returncode == 1 and {json.loads(line)["id"] for line in run.stdout.splitlines()} == set(whole), run
 
     task = {"SLURM_ARRAY_TASK_ID": "2", "SLURM_ARRAY_TASK_COUNT": "3"}
-    script = '"$0" batch --manifest jobs.jsonl --shard $SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT --out "task $SLURM_ARRAY_TASK_ID.jsonl" --cache "$1"'
+    script = '"$0" batch --manifest jobs.jsonl --shard $SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT --output "task $SLURM_ARRAY_TASK_ID.jsonl" --cache "$1"'
     subprocess.run(["sh", "-c", script, taut, caches], env=os.environ | task, stdout=subprocess.DEVNULL, check=True, timeout=300)
     assert set(results("task 2.jsonl")) == set(results("2.jsonl"))
 
@@ -477,7 +504,7 @@ def private_caches():
     os.chmod("two/1", 0o777)
     os.mkfifo("slow.obj")
     manifest([{"id": "slow", "args": ["check", "slow.obj"]}, {"id": "a", "args": ["check", "a.obj"]}, {"id": "b", "args": ["check", "a.obj"]}])
-    run = subprocess.Popen([taut, "batch", "--manifest", "jobs.jsonl", "--out", "two.jsonl", "--jobs", "2", "--cache", "two"], stderr=subprocess.PIPE, text=True)
+    run = subprocess.Popen([taut, "batch", "--manifest", "jobs.jsonl", "--output", "two.jsonl", "--jobs", "2", "--cache", "two"], stderr=subprocess.PIPE, text=True)
     until(lambda: at_work_on(run.pid, b"slow.obj"))
     with open("slow.obj", "w") as f, open("a.obj") as mesh:
         f.write(mesh.read())
@@ -487,7 +514,7 @@ def private_caches():
     # PoCL's own, of a command.
     os.makedirs("pocl", mode=0o777)
     os.chmod("pocl", 0o777)
-    run = subprocess.run([taut, "unwrap", "a.obj", "-o", "flat.obj"], capture_output=True, text=True, timeout=300, env=os.environ | {"POCL_CACHE_DIR": "pocl"})
+    run = subprocess.run([taut, "unwrap", "a.obj", "-o", "flat.obj"], capture_output=True, text=True, timeout=300, env=os.environ | {"POCL_CACHE_DIR": "pocl", "TAUT_DEVICE": "pthread"})
     assert run.returncode == 2 and "POCL_CACHE_DIR" in run.stderr or "pthread" not in subprocess.run([taut, "devices"], capture_output=True, text=True).stdout, run
 
 
@@ -496,5 +523,5 @@ caches = os.path.abspath(f"{folder}/../caches")
 shutil.rmtree(folder, ignore_errors=True)
 os.makedirs(folder)
 os.chdir(folder)
-{f.__name__: f for f in (answers, malformed, poison, resume, shards, schedulers, stays, workers, parallel, foreign, descriptors, private_caches)}[case]()
+{f.__name__: f for f in (answers, malformed, poison, resume, shards, schedulers, stays, pipes, much_memory, workers, parallel, foreign, descriptors, private_caches)}[case]()
 print(f"batch: {case}: all as it should be")

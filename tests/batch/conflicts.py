@@ -23,7 +23,7 @@ os.link("made.obj", "hard.obj")
 def batch(jobs, *options):
     with open("jobs.jsonl", "w") as f:
         f.writelines(json.dumps({"id": id, "args": args}) + "\n" for id, args in jobs.items())
-    return subprocess.run([taut, "batch", "--manifest", "jobs.jsonl", "--out", "results.jsonl", "--cache", "cache", *options],
+    return subprocess.run([taut, "batch", "--manifest", "jobs.jsonl", "--output", "results.jsonl", "--cache", "cache", *options],
                           capture_output=True, text=True, timeout=100)
 
 
@@ -53,6 +53,44 @@ for first, second, says in (
         assert run.returncode == 2, (says, run)
         assert all(one in run.stderr for one in ("jobs.jsonl: job ", "job a ", "job b ", says)), (says, run.stderr)
         assert not os.path.exists("results.jsonl") and not os.path.exists("c.obj"), says
+
+# The batch itself reads the manifest and writes results: by whatever name, and of standard streams, too.
+os.symlink("jobs.jsonl", "to-jobs.json")
+os.symlink("results.jsonl", "to-results.json")
+os.mkdir("cache")
+os.symlink("cache", "to-cache")
+for args, says in ((unwrap("1.obj", "--stats", "results.jsonl"), "job a would write results.jsonl, which the batch itself writes, too; "),
+                   (unwrap("1.obj", "--stats", "here/results.jsonl"), "results.jsonl, which the batch itself writes, too, as results.jsonl; "),
+                   (unwrap("1.obj", "--stats", "to-results.json"), "to-results.json"),
+                   (unwrap("1.obj", "--stats", "jobs.jsonl"), "job a would write jobs.jsonl, which the batch itself reads; "),
+                   (unwrap("1.obj", "--stats", "to-jobs.json"), "to-jobs.json"),
+                   (unwrap("1.obj", "--stats", "to-cache/0.lock"), "compiled kernels"),
+                   (["check", "to-results.json"], "job a would read to-results.json, which the batch itself writes, as results.jsonl; ")):
+    run = batch({"b": unwrap("c.obj"), "a": args})
+    assert run.returncode == 2 and says in run.stderr, (says, run.stderr)
+    assert not os.path.exists("results.jsonl") and not os.path.exists("c.obj"), says
+with open("jobs.jsonl", "w") as f:
+    f.write(json.dumps({"id": "a", "args": unwrap("1.obj", "--stats", "log.txt")}) + "\n")
+with open("log.txt", "w") as log:
+    run = subprocess.run([taut, "batch", "--manifest", "jobs.jsonl", "--cache", "cache"], stdout=log, stderr=subprocess.PIPE, text=True)
+assert run.returncode == 2 and "log.txt, which the batch itself writes, too, as /dev/stdout" in run.stderr, run
+
+# Of jobs that come one by one, each is looked at before it is run.
+jobs = [{"id": "a", "args": unwrap("1.obj", "--stats", "to-results.json")}, {"id": "b", "args": ["unwrap", "none.obj", "-o", "/dev/null"]},
+        {"id": "c", "args": unwrap("1.obj", "--stats", "jobs.jsonl")}]
+with open("jobs.jsonl", "w") as f:
+    f.writelines(json.dumps(one) + "\n" for one in jobs)
+with open("jobs.jsonl") as f:
+    before = f.read()
+    f.seek(0)
+    run = subprocess.run([taut, "batch", "--stdin", "--output", "results.jsonl", "--cache", "cache"], stdin=f, capture_output=True, text=True)
+assert run.returncode == 10 and "3 jobs: 3 done, 3 of them failed" in run.stdout, run
+with open("results.jsonl") as f:
+    results = {one["id"]: one for one in map(json.loads, f)}
+assert [results[k]["code"] for k in "abc"] == [2, 3, 2] and "to-results.json" in results["a"]["error"], results
+with open("jobs.jsonl") as f:
+    assert "the batch itself reads" in results["c"]["error"] and f.read() == before, results
+os.remove("results.jsonl")
 
 # What is read by many, /dev/null and a surface that a job replaces are no conflicts.
 run = batch({"a": ["unwrap", "none.obj", "-o", "/dev/null"], "b": ["unwrap", "none.obj", "-o", "/dev/null"], "c": ["unwrap", "other.obj", "-o", "other.obj"]})

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The most natural mistake in a traced function: the comparison has no value yet.
-#include <taut/impl/symbolic/recording.hpp>
+#include <taut/recording.hpp>
 
 int main()
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Precision changes only where the source says so.
-#include <taut/impl/symbolic/cast.hpp>
+#include <taut/symbolic.hpp>
 
 taut::sym<double> sum(taut::sym<float> x, taut::sym<double> y)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // An array that was declared as written only cannot be read.
-#include <taut/impl/symbolic/recording.hpp>
+#include <taut/recording.hpp>
 
 int main()
 {

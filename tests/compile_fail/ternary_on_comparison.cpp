@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/symbolic/sym.hpp>
+#include <taut/symbolic.hpp>
 
 taut::sym<float> clamp(taut::sym<float> x)
 {

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-# cmake -DMODE=install|subdirectory|fetch|plain|forgotten|components|pkgconfig|amalgamated -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
+# cmake -DMODE=install|subdirectory|fetch|plain|readme|parts|forgotten|components|pkgconfig|amalgamated -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
 # Builds and runs a user's project: against a taut that was installed without building anything, with taut as a
 # subdirectory or fetched, by a compiler alone; forgotten: without TAUT_IMPLEMENTATION, which the linker tells;
+# readme: the first program of the README, for the host device, of a small surface; parts: the bodies of each header link alone;
 # components: asks an installed taut for its components; pkgconfig: by a compiler with the flags of pkg-config;
 # amalgamated: with the two files of scripts/amalgamate in an empty folder, whose map is that of the headers.
 function(run)
@@ -22,13 +23,29 @@ file(MAKE_DIRECTORY ${BUILD})
 set(app ${ROOT}/tests/consumer/app)
 set(compile ${CXX} -std=c++20 -O0 -I${ROOT}/include)
 if(MODE STREQUAL "plain")
-    run(${compile} ${app}/one.cpp ${app}/two.cpp ${app}/bodies.cpp -lOpenCL -lpthread -o ${BUILD}/app)
-    run(${compile} ${app}/single.cpp -lOpenCL -lpthread -o ${BUILD}/app_single)
+    run(${compile} ${app}/one.cpp ${app}/two.cpp ${app}/bodies.cpp -lpthread -ldl -o ${BUILD}/app)
+    run(${compile} ${app}/single.cpp -lpthread -ldl -o ${BUILD}/app_single)
     run(${BUILD}/app)
     run(${BUILD}/app_single)
     return()
+elseif(MODE STREQUAL "readme")
+    file(WRITE ${BUILD}/roof.obj "v 0 0 0\nv 1 0 1\nv 2 0 0\nv 0 1 0\nv 1 1 1\nv 2 1 0\nf 1 2 4\nf 2 5 4\nf 2 3 5\nf 3 6 5\n")
+    run(${compile} -DTAUT_WITH_OPENCL=0 ${ROOT}/examples/unwrap.cpp -lpthread -ldl -o ${BUILD}/unwrap)
+    execute_process(COMMAND ${BUILD}/unwrap roof.obj WORKING_DIRECTORY ${BUILD} OUTPUT_VARIABLE out COMMAND_ERROR_IS_FATAL ANY)
+    file(READ ${BUILD}/flat.obj flat)
+    if(NOT out MATCHES "stop: gradient, .* 0 of 4 flipped" OR NOT flat MATCHES "\nvt ")
+        message(FATAL_ERROR "${out}\n${flat}")
+    endif()
+    return()
+elseif(MODE STREQUAL "parts")
+    foreach(headers kernel start_map solve untangle volume_file pack charts repair bake "parameterize untangle surface_file")
+        string(REGEX REPLACE "([a-z_]+) ?" "#include <taut/\\1.hpp>\n" text ${headers})
+        file(WRITE ${BUILD}/part.cpp "#define TAUT_IMPLEMENTATION\n${text}int main() {}\n")
+        run(${compile} -DTAUT_WITH_OPENCL=0 ${BUILD}/part.cpp -lpthread -ldl -o ${BUILD}/part)
+    endforeach()
+    return()
 elseif(MODE STREQUAL "forgotten")
-    execute_process(COMMAND ${compile} ${app}/one.cpp ${app}/two.cpp -lOpenCL -lpthread -o ${BUILD}/app
+    execute_process(COMMAND ${compile} ${app}/one.cpp ${app}/two.cpp -lpthread -ldl -o ${BUILD}/app
                     RESULT_VARIABLE result OUTPUT_VARIABLE out ERROR_VARIABLE out)
     if(NOT result OR NOT out MATCHES "undefined reference to `taut::devices\\(taut::device_requirements const&\\)'")
         message(FATAL_ERROR "not the error that the documents name:\n${out}")
@@ -47,8 +64,8 @@ elseif(MODE STREQUAL "amalgamated")
     foreach(unit taut same)
         run(${CXX} ${strict} -DAMALGAMATED -c ${BUILD}/one/${unit}.cpp -o ${BUILD}/one/${unit}.o)
     endforeach()
-    run(${CXX} ${BUILD}/one/taut.o ${BUILD}/one/same.o -lOpenCL -lpthread -o ${BUILD}/one/app)
-    run(${compile} ${app}/same.cpp -lOpenCL -lpthread -o ${BUILD}/app)
+    run(${CXX} ${BUILD}/one/taut.o ${BUILD}/one/same.o -lpthread -ldl -o ${BUILD}/one/app)
+    run(${compile} ${app}/same.cpp -lpthread -ldl -o ${BUILD}/app)
     foreach(program one/app app)
         execute_process(COMMAND ${BUILD}/${program} OUTPUT_FILE ${BUILD}/${program}.txt COMMAND_ERROR_IS_FATAL ANY)
     endforeach()

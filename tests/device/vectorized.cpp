@@ -5,8 +5,8 @@
 
 #include <support/meshes.hpp>
 
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/objective/map_objective.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/objective/map_objective.hpp>
 
 namespace
 {

@@ -6,7 +6,7 @@
 
 #include <dist/pieces.hpp>
 #include <taut/deform.hpp>
-#include <taut/impl/dist/shape_body.hpp>
+#include <taut/impl/dist/shape/shape_body.hpp>
 
 namespace taut::test
 {

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include <dist/pieces.hpp>
-#include <taut/impl/dist/shape_body.hpp>
-#include <taut/impl/dist_io/deal.hpp>
-#include <taut/impl/io/volume_file.hpp>
-#include <taut/impl/map/deform.hpp>
-#include <taut/impl/map/smooth.hpp>
-#include <taut/impl/processes/communicator.hpp>
+#include <taut/deform.hpp>
+#include <taut/impl/dist/processes/communicator.hpp>
+#include <taut/impl/dist/ranges/deal.hpp>
+#include <taut/impl/dist/shape/shape_body.hpp>
+#include <taut/impl/files/volume/volume_file.hpp>
 #include <taut/queue.hpp>
+#include <taut/smooth.hpp>
+#include <taut/volume_file.hpp>
 
 namespace taut::test
 {
@@ -31,7 +32,7 @@ io::volume_file cells_of_bar(int n)
     for (int k = 0; k < 4 * n; ++k)
     {
         const auto kind = k % 2 == 0 ? io::cell_kind::hexahedron : io::cell_kind::wedge;
-        auto& corners = file.cells.emplace_back(io::impl::cell_block{kind, {}}).corners;
+        auto& corners = file.cells.emplace_back(io::cell_block{kind, {}}).corners;
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)
             {

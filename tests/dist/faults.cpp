@@ -7,9 +7,8 @@
 #include <string>
 
 #include <dist/pieces.hpp>
-#include <taut/impl/constrain/constraint_error.hpp>
-#include <taut/impl/mesh/mesh_error.hpp>
-#include <taut/impl/processes/communicator.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/dist/processes/communicator.hpp>
 
 namespace taut::test
 {

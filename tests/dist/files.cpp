@@ -11,9 +11,9 @@
 #include <unistd.h>
 
 #include <dist/volume_files.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/volume_file.hpp>
 
 namespace taut::test
 {

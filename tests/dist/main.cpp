@@ -3,7 +3,6 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -15,9 +14,6 @@ int main(int argc, char** argv)
     MPI_Init(&argc, &argv);
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    // PoCL's cache is not safe between processes.
-    if (const char* caches = std::getenv("POCL_CACHE_DIR"))
-        ::setenv("POCL_CACHE_DIR", (std::string(caches) + "/process-" + std::to_string(rank)).c_str(), 1);
     doctest::Context context(argc, argv);
     std::ostringstream others;
     if (rank > 0) context.setCout(&others);

@@ -8,7 +8,7 @@ import struct
 
 import program
 from piece_files import foam, foam_case, foam_zones, mixed_bar, points_of_foam, points_of_vtu, pvtu, vtu
-from program import bar, fails, killed_at, near, run, serial, stats, stats_of_check, stretched
+from program import bar, fails, killed_at, listed, near, run, serial, stats, stats_of_check, stretched
 
 
 def pins_of(points):
@@ -54,6 +54,7 @@ def case_pieces():
                     if p[2] in (0, 4):
                         f.write("%d,%.17g,%.17g,%.17g\n" % (k, *(p if p[2] == 0 else stretched(p))))
             pins = ("--pins", "own.csv")
+        shutil.rmtree("out", ignore_errors=True)  # more pieces than the last output has
         run("deform", f"in{count}.pvtu", *pins, "-o", "out.pvtu", "--stats", "s.json", processes=processes)
         assert stats("s.json")["format"] == "PVTU"
         expect_moved(b.points, pieces, lambda k: points_of_vtu(f"out/piece_{k}.vtu"), energy)
@@ -74,12 +75,21 @@ def case_pieces():
     assert stats("s.json")["quality"]["mean_ratio"]["mean"] > stats("s.json")["quality_start"]["mean_ratio"]["mean"]
     # A checkpoint is in pieces, too; it is left out of the way once the result is there.
     task = ("deform", "in3.pvtu", "--fix", "region:0", "-o", "again.pvtu", "--stats", "s.json", "--checkpoint")
+    os.rename("same", "same.taut-1")
+    with open("same.pvtu") as f:
+        index = f.read()
+    with open("same.pvtu", "w") as f:
+        f.write(index.replace('"same/', '"same.taut-1/'))
     run(*task, "same.pvtu")
-    assert not os.path.exists("same.pvtu") and not os.path.exists("same"), os.listdir(".")
-    # Its pieces are removed, not those of the input, which it may name, too.
+    assert not os.path.exists("same.pvtu") and not os.path.exists("same.taut-1"), os.listdir(".")
+    # Pieces that no run has written as a checkpoint stay: those of the input, or of another result.
     shutil.copy("in3.pvtu", "copy.pvtu")
-    run(*task, "copy.pvtu")
-    assert not os.path.exists("copy.pvtu") and len(os.listdir("in3")) == 3
+    shutil.copytree("in3", "other")
+    with open("in3.pvtu") as f, open("other.pvtu", "w") as g:
+        g.write(f.read().replace("in3/", "other/"))
+    for name, folder in (("copy.pvtu", "in3"), ("other.pvtu", "other")):
+        run(*task, name)
+        assert not os.path.exists(name) and len(os.listdir(folder)) == 3, os.listdir(".")
     # What is wrong, one message says, and nothing is left.
     fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "in3.pvtu", code=2, word="in3.pvtu")
     fails("deform", "in3.pvtu", "--fix", "region:0", "-o", "out.vtu", code=2, word=".pvtu")
@@ -99,6 +109,20 @@ def case_pieces_of_others():
         with open(name, "w") as f:
             f.write(index.replace("in/", folder))
         fails("deform", name, "--fix", "region:0", "-o", "x.pvtu", code=3, word="outside of its folder")
+    # Nor by a link.
+    shutil.copytree("in", "linked")
+    os.rename("linked/piece_1.vtu", "sub/secret.vtu")
+    os.symlink("../sub/secret.vtu", "linked/piece_1.vtu")
+    with open("linked.pvtu", "w") as f:
+        f.write(index.replace("in/", "linked/"))
+    run("check", "linked.pvtu")  # a link within the folder of the .pvtu
+    os.makedirs("deep")
+    os.rename("linked", "deep/linked")
+    os.rename("linked.pvtu", "deep/linked.pvtu")
+    os.rename("sub", "deep.sub")
+    os.remove("deep/linked/piece_1.vtu")
+    os.symlink("../../deep.sub/secret.vtu", "deep/linked/piece_1.vtu")
+    fails("deform", "deep/linked.pvtu", "--fix", "region:0", "-o", "x.pvtu", code=3, word="a link out of its folder")
     # A folder that no .pvtu of the name has named is another one's.
     os.mkdir("out")
     with open("out/piece_1.vtu", "w") as f:
@@ -123,6 +147,34 @@ def case_pieces_of_others():
         assert f.read().count('Source="B&amp;O/') == 3
     assert stats_of_check("B&O.pvtu")["elements"] == len(b.cells)
     run(*task, "B&O.pvtu")  # it replaces its own
+    # Nor one that the output there does not name, in its own folder.
+    with open("out.mine", "w") as f:
+        f.write("mine")
+    shutil.copy("in.pvtu", "in2.pvtu")
+    os.rename("R&D/a/1-piece_0.vtu", "R&D/a/last.vtu")
+    with open("in2.pvtu") as f:
+        text = f.read()
+    with open("in2.pvtu", "w") as f:
+        f.write(text.replace("1-piece_0", "last"))
+    os.rename("out.mine", "B&O/last.vtu")
+    fails("deform", "in2.pvtu", "--fix", "region:0", "-o", "B&O.pvtu", code=2, word="B&O/last.vtu")
+    with open("B&O/last.vtu") as f:
+        assert f.read() == "mine"
+    # Line ends in names of pieces and arrays separate no names: a checkpoint removes its own pieces alone.
+    os.mkdir("lines")
+    for k in range(3):
+        with open(f"in/piece_{k}.vtu") as f, open(f"lines/part\nmine{k}.vtu", "w") as g:
+            g.write(f.read().replace('Name="region"', 'Name="re\ngion"'))
+        with open(f"mine{k}.vtu", "w") as f:
+            f.write("mine")
+    with open("lines.pvtu", "w") as f:
+        f.write(index.replace("in/piece_", "lines/part\nmine"))
+    run("deform", "lines.pvtu", "--fix", "re\ngion:0", "--checkpoint", "so-far.pvtu", "-o", "lines.out.pvtu", "--stats",
+        "s.json")
+    assert stats("s.json")["pins"] > 0 and len(os.listdir("lines.out")) == 3, os.listdir("lines.out")
+    assert all(os.path.exists(f"mine{k}.vtu") for k in range(3)), os.listdir(".")
+    run("smooth", "lines.pvtu", "-o", "lines.out.pvtu")
+    fails("deform", "lines.pvtu", "--fix", "x", "-o", "x.pvtu", code=4, word="lines.pvtu: no group 'x'")
     # A pin that single precision cannot hold.
     points = base64.b64encode(struct.pack("<I12f", 48, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)).decode()
     arrays = "".join(f'<DataArray type="Int32" Name="{name}" format="ascii">{values}</DataArray>' for name, values in
@@ -217,6 +269,32 @@ def case_foam():
     run("deform", "bytes", "--fix", "floor", "-o", "slash/")
     assert sorted(os.listdir("slash")) == ["processor0", "processor1"]
     fails("deform", "bytes", "--fix", "floor", "-o", "slash", code=2, word="is there already")
+    # Nothing is written into the input.
+    for place in ("bytes/out", "bytes/processor0/constant/polyMesh/out"):
+        fails("deform", "bytes", "--fix", "floor", "-o", place, code=2, word="lies in the input")
+        fails("deform", "bytes", "--fix", "floor", "-o", "x", "--stats", place + ".json", code=2, word="lies in the input")
+        fails("deform", "bytes", "--fix", "floor", "-o", "x", "--checkpoint", place, code=2, word="in each other")
+    # Nothing is read through a link out of the case, and what is no file is not waited for.
+    with open("id_rsa", "w") as f:
+        f.write("secret")
+    for link in ("bytes/processor1/constant/polyMesh/more", "bytes/processor0/constant/polyMesh/sub/more"):
+        os.makedirs(os.path.dirname(link), exist_ok=True)
+        for target in (os.path.abspath("id_rsa"), "nowhere"):
+            os.symlink(target, link)
+            fails("deform", "bytes", "--fix", "floor", "-o", "x", code=3, word="is a link out of the case")
+            os.remove(link)
+    mesh = "bytes/processor1/constant/polyMesh"
+    for place in ("bytes/processor1", mesh, mesh + "/points"):
+        os.rename(place, "elsewhere")
+        os.symlink(os.path.abspath("elsewhere"), place)
+        fails("deform", "bytes", "--fix", "floor", "-o", "x", code=3, word="is a link out of the case")
+        os.remove(place)
+        os.rename("elsewhere", place)
+    os.mkfifo(mesh + "/pipe")
+    fails("deform", "bytes", "--fix", "floor", "-o", "x", code=3, word="is no file")
+    os.remove(mesh + "/pipe")
+    os.symlink("points", mesh + "/same")  # within it
+    run("deform", "bytes", "--fix", "floor", "-o", "within")
     # One that is not decomposed; one without numbers of points, which are joined where they are.
     foam("one/constant/polyMesh", b.points, b.cells, lambda around: patch([b.points[v] for v in around]))
     run("deform", "one", "--pins", "pins.csv", "-o", "one-moved", "--stats", "s.json", processes=3)
@@ -254,6 +332,7 @@ def case_foam_checkpoint():
         assert sorted(os.listdir(".")) == ["case", "pins.csv", "so-far"], os.listdir(".")
     else:  # a fast machine was done before the first checkpoint
         os.rename("out", "so-far")
+        listed("so-far")
     left = stats_of_check("so-far")
     assert left["valid"] and left["elements"] == len(b.cells), left
     # Where there is no time for more, the result is the checkpoint, bit for bit, and that stays.
@@ -268,20 +347,31 @@ def case_foam_checkpoint():
     assert sorted(os.listdir(".")) == ["case", "out", "pins.csv", "s.json"], os.listdir(".")
     # Of what is at its end, nothing is left to do.
     os.rename("out", "so-far")
+    listed("so-far")
     run(*task)
     assert stats("s.json")["iterations"] <= 1 and not os.path.exists("so-far"), stats("s.json")["iterations"]
-    shutil.rmtree("out")
+    # A result that is no checkpoint, and whatever else lies in one, is the user's.
+    os.rename("out", "so-far")
+    fails(*task, code=2, word="is of no checkpoint")
+    listed("so-far")
+    notes = "so-far/processor0/constant/polyMesh/notes.txt"
+    for make in (lambda: open(notes, "w").close(), lambda: os.symlink("points", notes), lambda: os.mkdir(notes)):
+        make()
+        fails(*task, code=2, word="notes.txt is of no checkpoint")
+        os.rmdir(notes) if os.path.isdir(notes) else os.remove(notes)
+    shutil.rmtree("so-far")
     # It replaces nothing that is no checkpoint.
     for name, word in (("case/", "is also the input"), ("out/", "is also the input or the output"),
                        ("s.json", "is a file")):
         fails(*task[:6], "--checkpoint", name, code=2, word=word)
     os.makedirs("other/constant/polyMesh")
     os.makedirs("other/system")
-    fails(*task[:6], "--checkpoint", "other", code=2, word="has more in it")
+    fails(*task[:6], "--checkpoint", "other", code=2, word="is of no checkpoint")
     b.medit("bar.mesh")
     fails("deform", "bar.mesh", "-o", "x.mesh", "--checkpoint", "case", code=2, word="is a folder")
     few = 2 * (n + 1) ** 2
     foam_case("so-far", b.points[:few], [c for c in b.cells if max(c) < few], 1, lambda corners: "walls")
+    listed("so-far")
     fails(*task, code=4, word="checkpoint of another mesh")
 
 

@@ -7,7 +7,7 @@
 
 #include <dist/pieces.hpp>
 #include <taut/deform.hpp>
-#include <taut/impl/dist_io/deal.hpp>
+#include <taut/impl/dist/ranges/deal.hpp>
 
 namespace taut::test
 {

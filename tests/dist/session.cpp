@@ -4,8 +4,8 @@
 #include <numbers>
 
 #include <dist/pieces.hpp>
-#include <taut/impl/constrain/constraint_error.hpp>
-#include <taut/impl/dist/shape_body.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/dist/shape/shape_body.hpp>
 
 namespace taut::test
 {

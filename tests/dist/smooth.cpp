@@ -7,7 +7,7 @@
 
 #include <dist/pieces.hpp>
 #include <taut/certify.hpp>
-#include <taut/impl/io/cell_faces.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
 #include <taut/smooth.hpp>
 
 namespace taut::test

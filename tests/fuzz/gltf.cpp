@@ -8,7 +8,8 @@
 #include <vector>
 
 #include <sanitizer/allocator_interface.h>
-#include <taut/impl/gltf/gltf.hpp>
+#include <taut/gltf.hpp>
+#include <taut/impl/files/gltf/gltf.hpp>
 
 #include "../../src/gltf.cpp"
 #include "../support/gltf_models.hpp"

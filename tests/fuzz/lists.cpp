@@ -19,7 +19,7 @@ using fuzz::dice;
 
 constexpr idx vertices = 9;
 
-/// Edges, as of --seams, or faces, as of --pin and --region.
+/// Edges, as of --seams, or faces, as of --keep-charts and --region.
 std::string generate(dice& random)
 {
     const bool edges = random.one_in(2);

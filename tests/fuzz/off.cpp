@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <taut/impl/io/off.hpp>
+#include <taut/impl/files/surface/off.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"

@@ -3,8 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/constraints.hpp>
+#include <taut/impl/files/surface/pins.hpp>
+#include <taut/volume_file.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"

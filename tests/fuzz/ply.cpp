@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstring>
 
-#include <taut/impl/io/ply.hpp>
+#include <taut/impl/files/surface/ply.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"

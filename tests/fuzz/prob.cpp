@@ -3,9 +3,10 @@
 #include <string>
 #include <string_view>
 
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/untangle/proofs/infeasible.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/files/surface/prob_bodies.hpp>
+#include <taut/untangle.hpp>
+#include <taut/volume_file.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include <taut/impl/io/stl.hpp>
+#include <taut/impl/files/surface/stl.hpp>
 
 #include "budget.hpp"
 #include "mutator.hpp"

@@ -6,13 +6,14 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/impl/io/cut_seams.hpp>
-#include <taut/impl/io/obj.hpp>
-#include <taut/impl/io/surface/obj_output.hpp>
-#include <taut/impl/mesh/boundary.hpp>
-#include <taut/impl/mesh/order.hpp>
-#include <taut/impl/mesh/validate.hpp>
-#include <taut/impl/repair/repair_surface.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/impl/core/mesh/order.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/impl/files/surface/obj.hpp>
+#include <taut/impl/files/surface/obj_output.hpp>
+#include <taut/mesh.hpp>
+#include <taut/repair.hpp>
+#include <taut/surface_file.hpp>
 
 #include "require.hpp"
 
@@ -96,7 +97,7 @@ inline void require_repairable(const io::surface_soup& soup)
         for (std::size_t k = 0; k < 3; ++k)
             require(soup.faces.corners[soup.faces.corner(c, k)] == soup.triangles[c][k],
                     "corners of triangles are corners of faces");
-    const impl::mesh_requirements any{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
+    const mesh_requirements any{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
     const auto repaired =
         repair_surface(soup.points, soup.triangles, {.normals = soup.normals, .normal_cells = soup.normal_cells});
     require(check(repaired.surface, any).empty(), "what is repaired is an oriented manifold");

@@ -9,10 +9,11 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/io/coding/array_code.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
+#include <taut/impl/files/volume/coding/array_code.hpp>
+#include <taut/impl/files/volume/read_volume.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/volume_file.hpp>
 
 #include "../support/volume_promises.hpp"
 #include "../support/volume_texts.hpp"

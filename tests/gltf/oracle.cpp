@@ -14,8 +14,9 @@
 #include <tiny_gltf.h>
 
 #include <support/gltf_models.hpp>
-#include <taut/impl/gltf/gltf.hpp>
-#include <taut/impl/io/read_file.hpp>
+#include <taut/gltf.hpp>
+#include <taut/impl/files/file/read_file.hpp>
+#include <taut/impl/files/gltf/gltf.hpp>
 
 using namespace taut;
 

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include <support/gltf_models.hpp>
-#include <taut/impl/gltf/gltf.hpp>
+#include <taut/files.hpp>
+#include <taut/gltf.hpp>
 
 using namespace taut;
 

@@ -3,9 +3,9 @@
 """documents.py ROOT: pages for users are free of the idioms of a laboratory, and no link within the repository is dead, or
 leads to what the site leaves out.
 
-Pages for users are README.md and docs/ but for docs/log, which says what was tried and when. Those that are no
-explanation name public headers alone, no path below impl/. Links are those of all documents, with their headings, and
-pages that sources name as docs/FOLDER/PAGE.md."""
+Pages for users are README.md and docs/. Those that are no explanation name public headers alone, no path below impl/.
+Links are those of all documents, with their headings, and pages that sources name as docs/FOLDER/PAGE.md. docs/README.md
+lists every page."""
 
 import pathlib
 import re
@@ -19,7 +19,6 @@ IDIOMS = [
     r"\bmend(?:s|ed)?\b", r"\bcomes? to lie\b", r"\bstands? in for\b", r"\blengths of the run\b",
     r"\bwho has stopped\b", r"\bwhat nothing holds\b", r"became [0-9]", r"\bidle cores\b", r"in the same hour",
 ]
-EXPLANATION = ["explanation", "log"]
 GONE = re.compile(r"TAUT_COMPILED|taut::compiled|TAUT_ON_USE")
 SOURCES = ["include", "src", "tools", "tests", "examples", "bench", "scripts", "cmake", "kernels"]
 
@@ -57,19 +56,18 @@ def main():
         faults.append(f"{page.relative_to(root)}:{number}: {what}")
 
     for page in documents:
-        log = root / "docs" / "log" in page.parents
-        internal = page.name == "CHANGELOG.md" or any(root / "docs" / kind in page.parents for kind in EXPLANATION)
+        internal = page.name == "CHANGELOG.md" or root / "docs" / "explanation" in page.parents
         if not internal:
             for number, line in enumerate(page.read_text(encoding="utf-8").split("\n"), 1):
                 if found := re.search(r"\bimpl(?:/|::)[\w/.:]*", line):
                     fault(page, number, f"{found[0]} is internal; name a public header, or say what happens")
         for number, line in enumerate(without_code(page.read_text(encoding="utf-8")), 1):
-            if not log and page.name != "CHANGELOG.md":
+            if page.name != "CHANGELOG.md":
                 if found := GONE.search(line):
                     fault(page, number, f"{found[0]} exists no more")
                 for idiom in IDIOMS:
                     if found := re.search(idiom, re.sub(r"`[^`]*`", "", line), re.IGNORECASE):
-                        fault(page, number, f'"{found[0]}" belongs in docs/log; say what is, in the terms of the field')
+                        fault(page, number, f'"{found[0]}": say what is, in the terms of the field')
             for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`]*`", "", line)):
                 if re.match(r"[a-z]+:", target):
                     continue
@@ -81,6 +79,11 @@ def main():
                     fault(page, number, f"{target}: no part of the site (scripts/site); name it as code, without a link")
                 elif name and file.suffix == ".md" and name not in anchors(file):
                     fault(page, number, f"{target}: no such heading")
+
+    listed = set(re.findall(r"\]\((\w+/[\w-]+\.md)\)", (docs / "README.md").read_text(encoding="utf-8")))
+    for page in sorted(docs.glob("*/*.md")):
+        if str(page.relative_to(docs)) not in listed:
+            fault(page, 1, "is not in docs/README.md")
 
     files = [file for folder in SOURCES for file in (root / folder).rglob("*") if file.is_file()]
     for file in documents + files:

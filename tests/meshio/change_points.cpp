@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iostream>
 
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/volume_file.hpp>
 
 namespace
 {

@@ -209,7 +209,7 @@ def rounding_is_settled(taut):
     """What rounding to floats turns over or makes meet is mended, whatever the angle of the charts."""
     points, faces = scene()
     taut.write("scene.obj", obj(points, faces))
-    for options in ([], ["--upright"], ["--resolution", "8192"], ["--udim", "15", "--padding", "0"]):
+    for options in ([], ["--no-rotation"], ["--resolution", "8192"], ["--udim", "15", "--padding", "0"]):
         stats = taut.stats("atlas", "scene.obj", "-o", "scene.glb", *options)
         assert stats["flipped"] == 0 and stats["overlaps"] == 0
         mapped = read_glb(taut.read("scene.glb"))[1]
@@ -383,7 +383,7 @@ def pinned_charts_hold(taut):
     taut("atlas", "in.obj", "-o", "first.obj", "--max-distortion", "4.01")
     _, _, before = read_obj(taut.read("first.obj").decode())
     taut.write("pin.txt", "0\n40\n")
-    taut("atlas", "first.obj", "-o", "second.obj", "--pin", "pin.txt")
+    taut("atlas", "first.obj", "-o", "second.obj", "--keep-charts", "pin.txt")
     _, _, after = read_obj(taut.read("second.obj").decode())
     assert all([repr(x) for x in p] == [repr(x) for x in q]
                for f in (0, 40) for p, q in zip(before[f], after[f]))

@@ -281,7 +281,7 @@ def pinned(t, component, values, extra=(), name="in.glb", out="out.glb", **membe
            {"TEXCOORD_0": b.array(values + values, component, "VEC2", **members)})
     t.write(name, b.glb())
     t.write("pins.txt", "0\n")
-    t("atlas", name, "-o", out, "--pin", "pins.txt", *extra)
+    t("atlas", name, "-o", out, "--keep-charts", "pins.txt", *extra)
     before, after = Model(t, name), Model(t, out)
     require_kept(before, after)
     require_map(after)

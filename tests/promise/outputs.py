@@ -162,7 +162,7 @@ def each_option_says_what_its_files_are(t):
             own = [re.sub(r"^o\.", f"o{found}.", word) for word in required[command]]  # jobs share no output
             jobs.append({"id": probe, "args": [command, *own, *value, *extra]})
     t.write("jobs.jsonl", "".join(json.dumps(job) + "\n" for job in jobs))
-    t("batch", "--manifest", "jobs.jsonl", "--out", "results.jsonl", "--quiet", code=10)
+    t("batch", "--manifest", "jobs.jsonl", "--output", "results.jsonl", "--quiet", code=10)
     read = written = 0
     for line in t.read("results.jsonl").decode().splitlines():
         result = json.loads(line)
@@ -196,11 +196,11 @@ def a_batch_knows_all_files(t):
                  ["t.gltf", "t a.bin"], ["o.gltf", "o.bin", "o.html"]),
         "obj": (["atlas", "s.obj", "--seams", "seams.txt", "-o", "n.gltf"], ["s.obj", "seams.txt"], ["n.gltf", "n.bin"]),
         "paste": (["paste", "--source", "s.obj", "--target", "big.obj", "--at", "24", "--radius", "0.3", "--onto", "84", "--scale", "0.5",
-                   "-o", "p.obj", "--map", "p.exr", "--texels", "16"], ["s.obj", "big.obj"], ["p.obj", "p.exr"]),
+                   "-o", "p.obj", "--map", "p.exr", "--resolution", "16"], ["s.obj", "big.obj"], ["p.obj", "p.exr"]),
         "refine": (["deform", "flat.mesh", "-o", "f.mesh", "--refine", "--refined-map", "f.csv"], ["flat.mesh"], ["f.mesh", "f.csv"])}
     t.write("jobs.jsonl", "".join(json.dumps({"id": id, "args": [*job[0], "--quiet"] if job[0][0] != "paste" else [*job[0], "-q"]}) + "\n"
                                   for id, job in jobs.items()))
-    batch = lambda *options: t("batch", "--manifest", "jobs.jsonl", "--out", "results.jsonl", *options).stdout
+    batch = lambda *options: t("batch", "--manifest", "jobs.jsonl", "--output", "results.jsonl", *options).stdout
 
     before = set(state(t))
     batch()

@@ -85,7 +85,7 @@ def old_texture_coordinates(run):
             assert mapped(run.read("out.obj")) == len(FACES), name
             assert "texture coordinates of the file are not used: " + name + ", line" in told.stdout + told.stderr, told
         for used in (("unwrap", "-o", "no.obj", "--start", "uv"), ("atlas", "-o", "no.obj", "--charts", "keep"),
-                     ("atlas", "-o", "no.obj", "--keep-seams"), ("atlas", "-o", "no.obj", "--pin", "pins.txt"), ("eval",)):
+                     ("atlas", "-o", "no.obj", "--keep-seams"), ("atlas", "-o", "no.obj", "--keep-charts", "pins.txt"), ("eval",)):
             refused = run(used[0], name, *used[1:], code=4)
             assert name + ", line" in refused.stderr and "texture coordinate" in refused.stderr, refused.stderr
             assert not os.path.exists(run.file("no.obj"))

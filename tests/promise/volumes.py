@@ -584,7 +584,7 @@ def interfaces(taut):
         left = [v for v in middle if points[v][0] != 0.5]
         if name == "two.mesh":
             assert not left, left
-            assert "keep to interfaces" in run.stderr, run.stderr
+            assert "stay on interfaces" in run.stderr, run.stderr
             inner = [v for v in middle if all(0 < x < 1 for x in points[v][1:])]
             assert any(points[v] != mesh.points[v] for v in inner)  # they slide
         else:

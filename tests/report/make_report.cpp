@@ -9,7 +9,7 @@
 #include <map>
 
 #include <report/atlas_page.hpp>
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 using namespace taut;
 

@@ -12,7 +12,7 @@
 #include <report/atlas_page.hpp>
 #include <report/chart_table.hpp>
 #include <report/shown_mesh.hpp>
-#include <taut/impl/core/error.hpp>
+#include <taut/errors.hpp>
 
 using namespace taut;
 

@@ -5,8 +5,10 @@
 
 #include <span>
 
-#include <taut/impl/atlas/chart_mesh.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
 
 namespace taut::test
 {

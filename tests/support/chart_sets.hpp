@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 namespace support
 {

@@ -10,7 +10,7 @@
 #include <set>
 #include <vector>
 
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/mesh.hpp>
 
 /// Closed surfaces for tests, and such with handles and holes.
 namespace taut::test

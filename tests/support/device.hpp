@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <support/size.hpp>
-#include <taut/impl/compute/queue.hpp>
-#include <taut/impl/symbolic/scalar_type.hpp>
+#include <taut/impl/core/compute/quirks.hpp>
+#include <taut/impl/core/symbolic/scalar_type.hpp>
+#include <taut/queue.hpp>
 
 namespace taut::test
 {
+
+/// For tests that bring OpenCL C of their own: whether their device compiles it.
+inline bool compiles_text()
+{
+    return !impl::quirks::compiles_no_text(find_device());
+}
+
+/// Whether a queue has built so many programs; on a device without a compiler it has built none.
+inline bool has_built(const queue& q, std::uint64_t programs)
+{
+    return q.counters().builds == (impl::quirks::compiles_no_text(q.device()) ? 0 : programs);
+}
 
 /// sized() for counts of elements.
 inline std::size_t sized_count(int usual, int small)

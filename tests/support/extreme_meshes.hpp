@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/impl/mesh/incidence.hpp>
+#include <taut/impl/core/mesh/incidence.hpp>
 
 /// Generated disks whose maps are extremely distorted: the boundary is short and much surface lies behind it.
 namespace taut::test

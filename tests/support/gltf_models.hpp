@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/gltf/arrays.hpp>
-#include <taut/impl/gltf/container.hpp>
+#include <taut/impl/files/gltf/arrays.hpp>
+#include <taut/impl/files/gltf/container.hpp>
 
 /// glTF files made for tests.
 namespace taut::test

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <support/chart_checks.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
-#include <taut/impl/start/isometric_newton.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
+#include <taut/impl/core/start/isometric_newton.hpp>
 
 namespace taut::test
 {

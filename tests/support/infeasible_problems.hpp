@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/constrain/untangle_problem.hpp>
+#include <taut/untangle_problem.hpp>
 
 /// Small problems that have no solution on their mesh, but have one where elements are split.
 namespace taut::test

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/mesh.hpp>
 
 /// Small generated meshes for tests: good disks first, then the ones a validator must refuse.
 namespace taut::test

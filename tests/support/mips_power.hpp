@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <taut/impl/energy/element.hpp>
+#include <taut/energies.hpp>
 
 namespace taut::test
 {

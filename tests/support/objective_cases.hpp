@@ -10,12 +10,10 @@
 #include <doctest/doctest.h>
 
 #include <support/mips_power.hpp>
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/any_energy.hpp>
-#include <taut/impl/energy/area.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/energy/shape.hpp>
-#include <taut/impl/objective/real_types.hpp>
+#include <taut/any_energy.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/objective/real_types.hpp>
 
 namespace taut::test
 {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include <taut/impl/core/fixed_marks.hpp>
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/impl/core/core/fixed_marks.hpp>
+#include <taut/mesh.hpp>
 
 namespace taut::impl
 {

@@ -2,5 +2,3 @@
 #pragma once
 
 #include "precompiled.hpp"
-
-#include <taut/impl/compute/opencl.hpp>

@@ -6,8 +6,8 @@
 #include <random>
 #include <vector>
 
-#include <taut/impl/core/types.hpp>
-#include <taut/impl/edit/rbf_basis.hpp>
+#include <taut/impl/charts/paste/rbf_basis.hpp>
+#include <taut/types.hpp>
 
 namespace taut::test
 {

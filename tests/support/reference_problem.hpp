@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/mesh/layout.hpp>
-#include <taut/impl/objective/traced_element.hpp>
-#include <taut/impl/solve/host_objective.hpp>
-#include <taut/impl/symbolic/evaluate.hpp>
+#include <taut/impl/core/mesh/layout.hpp>
+#include <taut/impl/core/objective/traced_element.hpp>
+#include <taut/solve.hpp>
+#include <taut/symbolic.hpp>
 
 namespace taut::test
 {
@@ -87,7 +87,7 @@ private:
         const tape_scope scope(recorded);
         glm::mat<D, D, real> S;
         std::vector<real> unknowns;
-        std::vector<impl::binding> values;
+        std::vector<binding> values;
         for (int k = 0; k < D; ++k)
             for (int r = 0; r < D; ++r)
             {
@@ -96,7 +96,7 @@ private:
             }
         const real value = energy_(element<real, D>{S, glm::determinant(S), real(e.measure)});
         const auto partials = differentiate(value, unknowns);
-        const auto p = impl::evaluator(recorded, values)(std::span<const real>(partials));
+        const auto p = evaluate(partials, values);
         mat<D> P;
         for (int k = 0; k < D; ++k)
             for (int r = 0; r < D; ++r) P[k][r] = p[static_cast<std::size_t>(k * D + r)];

@@ -10,13 +10,13 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/core/fixed_marks.hpp>
-#include <taut/impl/core/linalg.hpp>
-#include <taut/impl/core/parallel.hpp>
-#include <taut/impl/energy/corner_derivatives.hpp>
-#include <taut/impl/energy/regularized.hpp>
-#include <taut/impl/mesh/incidence.hpp>
-#include <taut/impl/start/target_shapes.hpp>
+#include <taut/impl/core/core/fixed_marks.hpp>
+#include <taut/impl/core/core/parallel.hpp>
+#include <taut/impl/core/energy/corner_derivatives.hpp>
+#include <taut/impl/core/energy/regularized.hpp>
+#include <taut/impl/core/mesh/incidence.hpp>
+#include <taut/impl/core/untangle/target_shapes.hpp>
+#include <taut/types.hpp>
 
 namespace taut::impl
 {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/impl/compute/queue.hpp>
+#include <taut/queue.hpp>
 
 namespace taut::test
 {
 
-/// The context of queues that need none of their own. PoCL reads its library of functions once a context, which takes
-/// half a second.
-inline cl_context shared_context()
+/// A queue for tests that need no context of their own: of OpenCL's devices in one that they share, as PoCL reads its
+/// library of functions once a context, which takes half a second.
+inline queue shared_context()
 {
     static const queue& first = *new queue; // not released at the end, when a driver may be gone already
-    return first.native_context();
+    return first.device().is_host() ? queue(first.device()) : queue(first.native_context());
 }
 
 } // namespace taut::test

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/core/observer.hpp>
+#include <taut/options.hpp>
 
 namespace taut::test
 {

@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include <taut/impl/bake/texture.hpp>
-#include <taut/impl/core/types.hpp>
+#include <taut/bake.hpp>
+#include <taut/types.hpp>
 
 namespace taut::test
 {

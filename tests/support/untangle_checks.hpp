@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/constrain/untangle_problem.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/untangle/result.hpp>
+#include <taut/certify.hpp>
+#include <taut/untangle.hpp>
+#include <taut/untangle_problem.hpp>
 
 namespace taut::test
 {

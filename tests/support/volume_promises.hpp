@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/volume/numbers.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/files/volume/numbers.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
 
 namespace taut::test
 {
@@ -56,7 +56,7 @@ inline std::string outside(const io::volume_file& file, const std::vector<bool>&
 }
 
 /// The cells in the order that the file has: which of them are turned while reading, the points say.
-inline std::vector<io::impl::cell_block> cells_in_file(const io::volume_file& file)
+inline std::vector<io::cell_block> cells_in_file(const io::volume_file& file)
 {
     auto copy = file;
     io::impl::turn_cells(copy, file.turned);

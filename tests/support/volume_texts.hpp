@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/file/byte_order.hpp>
-#include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/files/file/byte_order.hpp>
+#include <taut/volume_file.hpp>
 
 /// Small volume meshes, and their files in every format as other programs write them.
 namespace taut::test

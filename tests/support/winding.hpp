@@ -6,7 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/mesh.hpp>
 
 namespace taut::test
 {

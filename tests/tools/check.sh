@@ -45,6 +45,10 @@ test_check()
     expect 4 check crack.obj
     says out '^error +2 components' '^warning +2 pairs \(1-3, 2-4\) of vertices .*; taut atlas --repair: welded'
 
+    expect 2 check in.obj --zone 1
+    volume 1 >in.mesh
+    expect 2 check in.mesh --format obj --zone 1
+    error_says '--zone is for SU2 files'
     expect 3 check nothing.obj
     says out '^error +nothing.obj: No such file'
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 zero\nf 1 2 3\n' >word.obj

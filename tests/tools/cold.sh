@@ -14,10 +14,11 @@ builders()
 test_cold()
 {
     grid 20 >in.obj
+    "$taut" devices | grep -q 'pthread' && [ -r /proc/self/environ ] && [ "$(nproc)" -gt 1 ] || exit 77
+    export TAUT_DEVICE=pthread
     expect 0 unwrap in.obj -o warm.obj --quiet
     expect 0 unwrap in.obj -o shape.obj --energy shape --quiet
-    "$taut" devices | grep -q 'pthread' && [ -r /proc/self/environ ] && [ "$(nproc)" -gt 1 ] || exit 77
-    same=$POCL_CACHE_DIR
+    same=${POCL_CACHE_DIR:-$PWD/kernels}
     export POCL_CACHE_DIR="$PWD/cold"
     for fate in ended 'was killed' 'was thought to have ended'; do
         mkdir -p cold
@@ -61,4 +62,5 @@ test_cold()
     sleep 0.2
     [ -z "$(builders)" ] || fail "a process is left where the program was killed"
     export POCL_CACHE_DIR="$same"
+    unset TAUT_DEVICE
 }

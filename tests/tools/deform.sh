@@ -31,6 +31,9 @@ test_deform()
     keys stats.json gradient
     expect 2 deform bar.mesh -o out.mesh --tolerance 1
     error_says '--tolerance'
+    echo 'vertex,x,y,z' >none.csv
+    expect 0 deform bar.mesh -o out.mesh --fix triangles:1 --pins none.csv
+    says err 'none.csv: no pins in it'
     printf '150,0.4,0.6,3.1\n' >end.csv
     expect 4 deform bar.mesh -o late.mesh --move triangles:1=end.csv
     error_says 'vertex 150 is not in group triangles:1'

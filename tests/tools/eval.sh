@@ -21,6 +21,16 @@ two_squares()
     printf 'f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 5/5 6/6 7/7\nf 5/5 7/7 8/8\n'
 }
 
+# whole_squares N: N squares side by side, each of which has the whole texture.
+whole_squares()
+{
+    awk -v n="$1" 'BEGIN {
+        for (k = 0; k < n; ++k) printf "v %d 0 0\nv %d 0 0\nv %d 1 0\nv %d 1 0\n", 2 * k, 2 * k + 1, 2 * k + 1, 2 * k
+        print "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1"
+        for (k = 0; k < n; ++k) printf "f %d/1 %d/2 %d/3 %d/4\n", 4 * k + 1, 4 * k + 2, 4 * k + 3, 4 * k + 4
+    }'
+}
+
 # A flat ring of eight quads that is cut open, as its own map.
 slit_ring()
 {
@@ -155,6 +165,14 @@ test_eval()
     printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 2 0\nf 1/1 2/2 3/3\nf 1/1 4/4 2/2\n' >sliver.obj
     expect 0 eval sliver.obj
     says err 'note: 1 triangle without area'
+
+    # Samples that lie in many triangles are looked at once: in a second or so.
+    whole_squares 3000 >whole.obj
+    expect 0 eval whole.obj
+    says out 'overlap *99.9[67][0-9]* % of the area' 'at least 100,000 pairs of triangles'
+    whole_squares 1 >whole.obj
+    expect 0 eval whole.obj
+    says out 'overlap *0 % of the area'
 
     grid 4 >bare.obj
     expect 4 eval bare.obj

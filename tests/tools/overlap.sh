@@ -44,7 +44,7 @@ test_overlap()
     expect 0 unwrap grid.obj -o same.obj --no-overlap --stats same.json --quiet
     cmp -s plain.obj same.obj || fail '--no-overlap changed a map without crossings'
     expect 0 unwrap grid.obj -o same.obj --no-overlap --boundary circle
-    says err '--no-overlap changes nothing'
+    says err '--no-overlap has no effect'
     keys same.json overlap.crossings_before overlap.rounds
     says values '^overlap.crossings_before=0' '^overlap.rounds=0'
 

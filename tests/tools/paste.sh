@@ -26,7 +26,7 @@ test_paste()
     printf '# a square\n' >faces
     for j in 10 11 12 13; do for i in 10 11 12 13; do echo "$((2 * (j * 24 + i))), $((2 * (j * 24 + i) + 1))" >>faces; done; done
     expect 0 paste --source source.obj --region faces --target out.obj --onto 160 -o again.obj --rotate 30 --scale 0.5 \
-        --softness 1 --triangles 500 --map map.exr --texels 128 --stats stats.json -q
+        --softness 1 --triangles 500 --map map.exr --resolution 128 --stats stats.json --quiet
     silent out
     silent err
     keys stats.json feature_triangles map.footprint map.round_trip map.distance rim_vertices
@@ -42,7 +42,7 @@ test_paste()
     says piped.obj '^f [0-9]+ [0-9]+ [0-9]+$' '^f [0-9]+/[0-9]+ '
     says err '^result '
 
-    expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --map small.exr --texels 8 -q
+    expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --map small.exr --resolution 8 --quiet
     silent err
     expect 4 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --scale 1e-12
     error_says 'larger scale'
@@ -54,13 +54,13 @@ test_paste()
     error_says '--onto 9999: target.off has vertices 0 to 960'
     expect 4 paste --source source.obj --at 312 --radius 1e-9 --target target.off --onto 480 -o out.obj
     error_says 'within the radius 1e-09'
-    expect 2 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --texels 64
-    error_says '--texels' '--map or --triangles'
+    expect 2 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --resolution 64
+    error_says '--resolution' '--map or --triangles'
     expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o turned.obj --rotate 90
     expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --rotate 36000000090
     cmp out.obj turned.obj || fail 'whole turns change the result'
     expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --triangles 100000000
-    says out 'note +--triangles 100000000: [0-9,]+ triangles, as more show nothing of the map'
+    says out 'note +--triangles 100000000: [0-9,]+ triangles, as the map has no more detail'
     expect 0 paste --source source.obj --at 312 --radius 0.25 --target target.off --onto 480 -o out.obj --triangles 1
     says out 'note +--triangles 1: [0-9]+ triangles, as the rim'
     octahedron >closed.obj

@@ -24,7 +24,7 @@ test_pins()
     expect 3 unwrap in.obj -o no.obj --pins missing.csv
     echo 'vertex,u,v' >none.csv # as a page without pins saves it
     expect 0 unwrap in.obj -o out.obj --pins none.csv
-    says err 'none.csv: no pins in it'
+    says err 'none.csv: has no pins'
 
     # Four vertices change places with those across within a fixed boundary. What is left is told once.
     grid 6 >six.obj

@@ -11,10 +11,10 @@ test_smooth()
     awk -F= '/^quality_start/ { before = $2 } /^quality\./ { after = $2 } END { exit !(after > before) }' values ||
         fail "the worst element is no better"
     for boundary in fixed free; do
-        expect 0 smooth bar.mesh -o out.mesh --boundary $boundary --worst 3 --fix triangles:1 --quiet
+        expect 0 smooth bar.mesh -o out.mesh --boundary $boundary --exponent 3 --fix triangles:1 --quiet
         expect 0 check out.mesh
         says out '^inverted +0 of'
     done
-    expect 2 smooth bar.mesh -o out.mesh --worst 9
+    expect 2 smooth bar.mesh -o out.mesh --exponent 9
     expect 2 smooth bar.mesh -o out.mesh --boundary round
 }

@@ -67,12 +67,12 @@ test_untangle()
     expect 0 untangle volume.prob -o volume.txt --stats stats.json
     keys stats.json element outcome
     says values '^element=tetrahedron$' '^outcome=injective$'
-    expect 0 untangle volume.prob -o volume.txt --picture volume.png --cut x:0.9 --quiet
+    expect 0 untangle volume.prob -o volume.txt --picture volume.png --clip x:0.9 --quiet
     png volume.png
     expect 2 untangle volume.prob -o volume.txt --picture volume.svg
     error_says 'volume.svg' '.png'
-    expect 2 untangle in.prob -o out.txt --picture out.png --cut x
-    error_says '--cut' 'planar'
+    expect 2 untangle in.prob -o out.txt --picture out.png --clip x
+    error_says '--clip' 'planar'
 
     # A problem that has a solution where an element is split; what is written is a problem, too.
     {

@@ -40,9 +40,9 @@ test_usage()
     expect 2 unwrap in.obj -o out.obj --device ''
     error_says '--device' 'without a name'
     expect 0 smooth --help
-    says out '--zone N  ' '--worst 1..8  '
+    says out '--zone N  ' '--exponent 1..8  '
     expect 0 view --help
-    says out 'exit codes: 0 ended'
+    says out '130 ended by Ctrl-C'
     expect 2 unwrap in.obj -o out.obj --time-limit 20,5
     error_says '--time-limit' '20,5 is no number'
     for wrong in '--iterations -1' '--tolerance -1' '--tolerance 2' '--tolerance nan' '--time-limit 0' \
@@ -56,4 +56,18 @@ test_usage()
         [ "$(wc -l <err)" = 1 ] || fail "more than one line for $wrong"
     done
     absent out.obj
+
+    # Former names are taken, and told.
+    expect 2 eval in.obj --cut=x
+    says err '^taut: note: --cut is now --clip$'
+    error_says '--clip'
+    expect 2 smooth in.mesh -o out.mesh --worst 9
+    says err '--worst is now --exponent'
+    expect 2 paste --texels 7
+    says err '--texels is now --resolution'
+    expect 0 atlas in.obj -o out.obj --upright
+    says err '--upright is now --no-rotation'
+    expect 0 atlas in.obj -o out.obj --upright --quiet
+    silent err
+    if out=$("$taut" atlas --help | grep -e --upright); then fail "the help lists a former name"; fi
 }

@@ -36,14 +36,14 @@ test_volumes()
     expect 4 check in.mesh
     says out '^input +in.mesh: MEDIT, volume, 160 vertices, 486 tetrahedra' '^groups .*triangles:1 \(16\)' \
         '^orientation +as MEDIT files have it' '^inverted +[1-9][0-9]* of 486' '^error .*inverted, in a mesh that is oriented as MEDIT files are'
-    expect 0 untangle in.mesh -o out.mesh --stats stats.json --picture out.png --cut x:0.6
+    expect 0 untangle in.mesh -o out.mesh --stats stats.json --picture out.png --clip x:0.6
     says out 'inverted +[1-9][0-9]* -> 0 of 486' '^outcome +injective' 'wrote +out.mesh, out.png, stats.json'
     keys stats.json schema format outcome inverted_start inverted branch_edges quality.mean_ratio.worst seconds.total
     says values 'schema=taut.untangle/1' '^inverted=0$' '^branch_edges=0$'
     png out.png
     echo 'vertex,x,y,z' >none.csv # as a page without pins saves it
     expect 0 untangle in.mesh -o out.mesh --boundary fixed --pins none.csv
-    says err 'none.csv: no pins in it'
+    says err 'none.csv: has no pins'
     expect 0 check out.mesh --json
     cp out check.json
     keys check.json elements.tetrahedra components quality.mean_ratio.worst groups.0.name inverted
@@ -68,7 +68,7 @@ test_volumes()
     absent late.mesh
     absent late.json
     expect 2 untangle in.prob -o late.txt --fix 1
-    error_says '--fix is of volume files'
+    error_says '--fix is for volume files'
 
     # Four tetrahedra around an edge, two pinned vertices beyond it: no map without splitting that.
     octahedron() # X of the two vertices
@@ -112,7 +112,7 @@ test_volumes()
     error_says 'requires --refine'
 
     # Measures of a map, and of a mesh alone.
-    expect 0 deform rest.mesh -o bent.mesh --fix 1 --move triangles:2:rotate:0,0,1,60 --quiet --picture bent.png --cut 0,1,0,0.4
+    expect 0 deform rest.mesh -o bent.mesh --fix 1 --move triangles:2:rotate:0,0,1,60 --quiet --picture bent.png --clip 0,1,0,0.4
     png bent.png
     expect 0 eval rest.mesh bent.mesh --picture eval.png
     says out '^inverted +0 of 486; det 0\.' '^winding +once around every inner edge' '^stretch +singular values' 'by volume'
@@ -122,10 +122,10 @@ test_volumes()
     keys eval.json schema inverted branch_edges quality.isometric.by_volume singular_values.least distortion.worst_ids.0
     says values 'schema=taut.eval/1' '^quality.isometric.by_volume=2\.'
     expect 0 eval bent.mesh
-    says err 'no shape at rest'
-    expect 2 eval rest.mesh --cut x
-    error_says '--cut is of --picture'
-    expect 2 eval rest.mesh bent.mesh --picture eval.png --cut w
+    says err 'no rest shape'
+    expect 2 eval rest.mesh --clip x
+    error_says '--clip needs --picture'
+    expect 2 eval rest.mesh bent.mesh --picture eval.png --clip w
     error_says 'nx,ny,nz,d'
     expect 2 eval rest.mesh bent.mesh --picture eval.svg
     error_says 'pictures of volumes are PNG'
@@ -134,7 +134,7 @@ test_volumes()
     hexahedra >hex.vtk
     expect 0 check hex.vtk
     says out '1 wedge, 16 hexahedra' '^insides +all valid, by Bezier bounds'
-    expect 0 deform hex.vtk -o out.vtk --fix part:1 --move part:2:rotate:0,0,1,60 --stats stats.json --picture hex.png --cut y
+    expect 0 deform hex.vtk -o out.vtk --fix part:1 --move part:2:rotate:0,0,1,60 --stats stats.json --picture hex.png --clip y
     says out '^wrote +out.vtk, hex.png, stats.json$'
     keys stats.json element elements inverted insides.negative insides.undecided
     says values '^element=mixed$' '^elements=17$' '^inverted=0$' '^insides.negative=0$'

@@ -5,6 +5,7 @@ import os
 import signal
 import socket
 import struct
+import subprocess
 import sys
 import time
 import tempfile
@@ -171,6 +172,17 @@ def shell(path, n):
         s.send(save())
         file = s.message("file")
         assert file["name"] == "dome-moved.obj" and file["bytes"].count(b"v ") == (n + 1) ** 2
+
+
+def without_effect(surface, volume):
+    """Options that would have no effect are refused."""
+    feature = ("--source", surface, "--at", "0", "--radius", "1", "--onto", "0")
+    for option, *arguments in (("--zone", surface, "--zone", "1"), ("--zone", volume, "--format", "obj", "--zone", "1"),
+                               ("--holes", volume, "--holes"), ("--holes", surface, "--shell", "--holes"),
+                               ("--holes", surface, "--holes", *feature), ("--shell", surface, "--shell", *feature),
+                               ("--pins", surface, "--pins", surface, *feature)):
+        run = subprocess.run([program, "view", "--no-browser", *arguments], capture_output=True, text=True, timeout=60)
+        assert run.returncode == 2 and f"taut: error: {option} is" in run.stderr, (arguments, run)
 
 
 def strangers(path):
@@ -387,7 +399,7 @@ def pasting(path, n):
         assert kept["faces"] == moved["faces"] and kept["feature"] == 2 ** 32 - 1
         s.rest()
         s.send(pose(4, turn=1.0))
-        assert "nowhere" in s.message("note")["text"]
+        assert "not placed" in s.message("note")["text"]
         s.send(move(4, (0.3, -0.05, 0)))  # from where it was
         again = s.message("model")
         assert again["feature"] < len(again["faces"]) // 3 and middle(again)[0] > middle(moved)[0] + 0.1
@@ -485,4 +497,5 @@ if __name__ == "__main__":
     tessellated(f"{folder}/dome.obj", n)
     no_surface(f"{folder}/dome.obj", n)
     shell(f"{folder}/dome.obj", n)
+    without_effect(f"{folder}/dome.obj", f"{folder}/bar.mesh")
     print("view: all as it should be")

@@ -24,11 +24,14 @@
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
 #include <report/atlas_page.hpp>
-#include <taut/impl/atlas/make_atlas.hpp>
-#include <taut/impl/atlas/symmetry.hpp>
-#include <taut/impl/gltf/gltf.hpp>
-#include <taut/impl/io/write_files.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/atlas.hpp>
+#include <taut/charts.hpp>
+#include <taut/files.hpp>
+#include <taut/gltf.hpp>
+#include <taut/impl/charts/atlas/make_atlas.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
 
 #include "commands.hpp"
 #include "shared/command_run.hpp"
@@ -134,7 +137,7 @@ private:
             if (!s.texcoord_fault.empty() &&
                 (options_.keep_charts() || options_.keep_seams || !options_.pinned.empty()))
                 throw unsuitable_input(s.texcoord_fault +
-                                       "; correct it, or leave out --charts keep, --keep-seams and --pin");
+                                       "; correct it, or leave out --charts keep, --keep-seams and --keep-charts");
             if (options_.inputs.size() > 1) require_valid(s.surface(), options_.inputs[i]);
         }
         joined_.emplace(join(sources_));
@@ -239,7 +242,7 @@ private:
         }
         params.stored = in_gltf<io::gltf_model::numbers::floats>;
         numbers_ = io::gltf_model::numbers::floats;
-        report_.notes.push_back("coordinates of pinned charts are rounded to single precision, as glTF has no other");
+        report_.notes.push_back("coordinates of kept charts are rounded to single precision, as glTF has no other");
     }
 
     void write()

@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-#include <taut/impl/gltf/gltf.hpp>
+#include <taut/gltf.hpp>
 
 #include "shared/choices.hpp"
 #include "shared/failure.hpp"
@@ -32,9 +32,9 @@ void declare_charts(const subcommand& app, atlas_options& o)
                o.weld = d;
                o.repair = true;
            },
-           "Repair, and weld corners at open edges that are at most D apart, in units of "
-           "the file; 0: equal ones only. --repair alone welds those within 1e-7 of the "
-           "size, or 8 units of the last digit of the file")
+           "Repair, and weld corners at open edges at most D apart, in units of the file; "
+           "0: only equal ones. --repair alone welds within 1e-7 of the size, or 8 units "
+           "of the last digit of the file")
         .type_name("D")
         .check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must be a length, 0 or more"));
     const auto distortion = number_that([](double x) { return x > 4 && std::isfinite(x); }, "is not above 4");
@@ -43,21 +43,22 @@ void declare_charts(const subcommand& app, atlas_options& o)
         .type_name("D")
         .check(distortion);
     app.add_option("--mean-distortion", o.mean_distortion,
-                   "Bound of that of all charts; default 4.1, 4.045 for packing, or --max-distortion if that is given")
+                   "Bound of the mean isometric energy of all charts; default 4.1, 4.045 for packing, or "
+                   "--max-distortion if given")
         .type_name("D")
         .check(distortion);
     app.add_option("--max-stretch", o.max_stretch,
-                   "The same bound in other words: the stretch (L2, Sander et al. 2001) of the whole atlas, above 1; "
-                   "1.02: texels are 2 % too coarse in the mean")
+                   "The bound as stretch (L2, Sander et al. 2001) of the whole atlas, above 1; "
+                   "1.02: texels are on average 2 % too coarse")
         .type_name("S")
         .check(number_that([](double x) { return x > 1 && std::isfinite(x); }, "is not above 1, that of no stretch"));
     add_choice<chart_preference>(
         app, "--prefer", o.prefer,
         {{"seams", chart_preference::seams}, {"packing", chart_preference::packing}, {"one", chart_preference::one}},
-        "Few charts along short seams, charts that fill the square better, or one a component");
+        "Few charts along short seams, charts that fill the square better, or one per component");
     add_choice<chart_use>(app, "--charts", o.charts,
                           {{"auto", chart_use::make}, {"keep", chart_use::keep}, {"pack", chart_use::pack}},
-                          "Make charts, keep those of the vt of the file and relax them, or pack these as they are");
+                          "Make charts, keep and relax those of the file's vt, or pack those unchanged");
     app.add_flag("--keep-seams", o.keep_seams, "Keep the seams of the file's vt and between its materials");
     app.add_flag("--symmetric", o.symmetric,
                  "Make charts that are mirror images of each other in the plane of symmetry, "
@@ -65,17 +66,17 @@ void declare_charts(const subcommand& app, atlas_options& o)
     add_input(app, "--seams", o.seams, "the file of seams",
               "Edges that are seams of charts, one per line: two vertices, from 0");
     add_input(app, "--seam-weights", o.seam_weights, "the file of weights of seams",
-              "Factors of what seams cost, a line each: a vertex, from 0, and its factor, or the two vertices of an "
-              "edge and its factor, from 0.001 to 1000; others 1");
+              "Weights of seams, one per line: a vertex, from 0, and a factor, or the two vertices of an edge and a "
+              "factor, from 0.001 to 1000; default 1");
     add_choice<double>(app, "--hide-seams", o.hide, {{"off", 0}, {"mild", 0.5}, {"strong", 1}},
-                       "Have seams in hollows, where little is seen of them from outside");
+                       "Prefer seams in hollows, where they are hardly visible");
     app.add_option("--crease-angle", o.crease_angle,
-                   "Have seams along edges that are bent by more than this, concave ones first, and between materials")
+                   "Prefer seams along edges bent by more than this, concave ones first, and between materials")
         .type_name("DEGREES")
         .check(number_that([](double x) { return x >= 0 && x <= 180; }, "must be from 0 to 180"));
-    add_input(app, "--pin", o.pinned, "the file of pinned faces",
-              "Faces, from 0, that pin their charts of the file's vt: these keep shape and "
-              "place, others are packed around them");
+    add_input(app, "--keep-charts", o.pinned, "the file of faces",
+              "Faces, from 0, whose charts of the file's vt keep shape and position; others are packed around them");
+    app.rename("--pin", "--keep-charts");
 }
 
 void declare_packing(const subcommand& app, atlas_options& o)
@@ -86,25 +87,27 @@ void declare_packing(const subcommand& app, atlas_options& o)
         .check(number_that([](double x) { return x >= 0 && std::isfinite(x); }, "must not be negative"));
     app.add_option(
            "--mip-levels", o.mip_levels,
-           "Padding with which charts do not bleed into each other up to level N of mip maps: 3 * 2^N texels; 0 to 10")
+           "Padding that prevents bleeding between charts up to mip level N, but for half a percent between diagonal "
+           "neighbours: 3 * 2^N texels; 0 to 10")
         .type_name("N")
         .check_said_range(0, 10);
     app.add_option("--resolution", o.size,
-                   "Texels along a side of the square, or of a page that is wider or higher by a power of two")
+                   "Texels along a side of the square, or of a page wider or higher by a power of two")
         .type_name("N|WxH")
         .capture_default_str();
     app.add_option("--texels-per-unit", o.texels_per_unit,
-                   "Texels of a unit of length of the file, with as many tiles as that takes; default as many as fit")
+                   "Texels per unit of length of the file, in as many tiles as needed; default as many as fit")
         .type_name("T")
         .check(number_that([](double x) { return x > 0 && std::isfinite(x); }, "must be positive"));
     app.add_option("--max-resolution", o.max_resolution,
-                   "With --texels-per-unit: double the resolution up to N until one tile, or those of --udim, do")
+                   "With --texels-per-unit: double the resolution up to N until the charts fit into one tile, or those "
+                   "of --udim")
         .type_name("N")
         .check_said_range(1, 65536);
-    app.add_option("--align", o.align,
-                   "Side of the blocks of texels that one chart has alone: 4 for compressed textures; 1, 2, 4, ..., "
-                   "64, at most an "
-                   "eighth of --resolution")
+    app.add_option(
+           "--align", o.align,
+           "Side of blocks of texels that belong to one chart each: 4 for compressed textures; 1, 2, 4, ..., 64, "
+           "at most an eighth of --resolution")
         .type_name("N")
         .check_one_of({1, 2, 4, 8, 16, 32, 64})
         .capture_default_str();
@@ -114,14 +117,15 @@ void declare_packing(const subcommand& app, atlas_options& o)
         .type_name("N")
         .check_range(1, 1000);
     add_choice<bool>(app, "--stack", o.stack, {{"none", false}, {"similar", true}},
-                     "Lay charts on each other that are copies in space, turned and moved");
-    app.add_flag("--tile-per-material", o.by_material, "Give each material of the file a tile of its own");
-    app.add_flag("--upright", o.upright, "Translate charts only, without rotation");
+                     "Stack charts that are rotated and translated copies in space");
+    app.add_flag("--tile-per-material", o.by_material, "Give each material its own tile");
+    app.add_flag("--no-rotation", o.upright, "Translate charts without rotating them");
+    app.rename("--upright", "--no-rotation");
 }
 
 void declare_reports(const subcommand& app, atlas_options& o)
 {
-    add_time_limit(app, o.time_limit, "Stop after S seconds, with charts as they are (exit code 8)");
+    add_time_limit(app, o.time_limit, "Stop after S seconds, with the current charts (exit code 8)");
     add_device(app, o.device);
     add_stats(app, o.stats);
     add_output(app, "--picture", o.picture, {.extensions = {".png", ".svg"}}, "Draw the atlas, coloured by distortion");
@@ -141,8 +145,8 @@ void declare(const subcommand& app, atlas_options& o)
         .type_name("FILE...");
     add_output(app, "-o,--output", o.outputs,
                {.extensions = {".obj", ".glb", ".gltf"}, .made_of = "IN", .in_place = true},
-               "Output, once for each surface: the input file with new vt; one for several: an "
-               "OBJ of all of them as triangles, an object each; - is standard output")
+               "Output, once per surface: the input file with new vt; or one for several: an "
+               "OBJ of triangles, one object per surface; - is standard output")
         .required()
         .one_value_each()
         .type_name("OUT.obj|.glb");
@@ -152,7 +156,7 @@ void declare(const subcommand& app, atlas_options& o)
         .check_range(0, 7)
         .capture_default_str();
     app.add_option("--read-texcoord-set", o.read_texcoord_set,
-                   "The set whose charts and seams are read, where it is another one")
+                   "The set from which charts and seams are read, if different")
         .type_name("N")
         .check_said_range(0, 7);
     declare_charts(app, o);
@@ -190,10 +194,10 @@ void check_pages(const atlas_options& o)
     const double aspect = static_cast<double>(height) / width, power = std::exp2(std::round(std::log2(aspect)));
     if (aspect != power || aspect < 1.0 / 16 || aspect > 16)
         throw usage_error("--resolution " + o.size +
-                          ": one side must be that of the other by a power of two, 16 at "
-                          "most, such as 2048x1024");
+                          ": the ratio of the sides must be a power of two, at most 16, such "
+                          "as 2048x1024");
     if (aspect != 1 && !o.pinned.empty())
-        throw usage_error("--resolution " + o.size + ": pinned charts lie in squares; give one number");
+        throw usage_error("--resolution " + o.size + ": charts of --keep-charts lie in squares; give one number");
     const double padding = padding_of(o);
     if (2 * padding >= std::min(width, height))
         throw usage_error((o.mip_levels ? "--mip-levels: padding " : "--padding ") + number(padding, 6) +
@@ -206,11 +210,12 @@ void check_pages(const atlas_options& o)
     if (o.max_resolution > 0 && o.max_resolution < width)
         throw usage_error("--max-resolution " + std::to_string(o.max_resolution) + ": is below --resolution, " +
                           std::to_string(width));
-    if (o.stack && !o.pinned.empty()) throw usage_error("--stack is of charts that are placed; leave out --pin");
+    if (o.stack && !o.pinned.empty())
+        throw usage_error("--stack moves charts, and --keep-charts keeps them; leave out one of them");
     if (o.by_material && o.tiles)
         throw usage_error("--tile-per-material has as many tiles as materials; leave out --udim");
     if (o.by_material && !o.pinned.empty())
-        throw usage_error("--tile-per-material: pinned charts have their tiles; leave out --pin");
+        throw usage_error("--tile-per-material: the charts of --keep-charts have their tiles; leave out one of them");
     if (o.by_material && o.inputs.size() > 1)
         throw usage_error("--tile-per-material is for one surface; map the surfaces one at a time");
 }
@@ -232,34 +237,34 @@ void check(const atlas_options& o)
         throw usage_error("--seams names vertices of one surface; map the surfaces one at a time, or use --keep-seams");
     if (!o.seam_weights.empty() && (o.inputs.size() > 1 || o.symmetric || !o.pinned.empty()))
         throw usage_error(
-            "--seam-weights names vertices of one whole surface; leave out --symmetric and --pin, and map "
+            "--seam-weights names vertices of one whole surface; leave out --symmetric and --keep-charts, and map "
             "surfaces one at a time");
     if (o.inputs.size() > 1 && !o.pinned.empty())
-        throw usage_error("--pin names faces of one surface; map the surfaces one at a time");
+        throw usage_error("--keep-charts names faces of one surface; map the surfaces one at a time");
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
     const bool others = !std::all_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
-    if (o.texcoord_set > 0 && !gltf) throw usage_error("--texcoord-set is of glTF that is read; leave it out");
-    if (o.read_texcoord_set && !gltf) throw usage_error("--read-texcoord-set is of glTF that is read; leave it out");
+    if (o.texcoord_set > 0 && !gltf) throw usage_error("--texcoord-set needs glTF input; leave it out");
+    if (o.read_texcoord_set && !gltf) throw usage_error("--read-texcoord-set needs glTF input; leave it out");
     if (o.read_texcoord_set && !o.keep_charts() && !o.keep_seams && o.pinned.empty())
         throw usage_error(
-            "--read-texcoord-set: nothing is read; give --charts, --keep-seams or --pin, or leave it out");
+            "--read-texcoord-set: nothing is read; give --charts, --keep-seams or --keep-charts, or leave it out");
     if (o.format != io::surface_format::automatic && !others)
-        throw usage_error("--format is of OBJ, OFF, PLY and STL; leave it out for glTF");
+        throw usage_error("--format is for OBJ, OFF, PLY and STL; leave it out for glTF");
     if (o.symmetric && (o.keep_charts() || !o.pinned.empty()))
-        throw usage_error("--symmetric makes charts; leave out --charts keep and --pin");
+        throw usage_error("--symmetric makes charts; leave out --charts keep and --keep-charts");
     if (o.symmetric && o.stack)
         throw usage_error("--stack similar lays copies on each other, and mirror images are no copies; leave out "
                           "--symmetric, or --stack");
     if (o.max_stretch && (o.max_distortion || o.mean_distortion))
-        throw usage_error("--max-stretch is a bound of the mean distortion; leave out --max-distortion and "
+        throw usage_error("--max-stretch bounds the mean distortion; leave out --max-distortion and "
                           "--mean-distortion");
     if (o.keep_charts())
     {
         const std::string given = o.charts == chart_use::pack ? "--charts pack" : "--charts keep";
         if (o.hide > 0 || o.crease_angle < 180 || !o.seam_weights.empty())
-            throw usage_error(given + " has the seams of the vt; leave out --hide-seams, --crease-angle and "
+            throw usage_error(given + " keeps the seams of the vt; leave out --hide-seams, --crease-angle and "
                                       "--seam-weights");
-        if (o.keep_seams) throw usage_error(given + " has the seams of the vt alone; leave out --keep-seams");
+        if (o.keep_seams) throw usage_error(given + " keeps only the seams of the vt; leave out --keep-seams");
         if (o.prefer != chart_preference::seams) throw usage_error(given + " makes no charts; leave out --prefer");
         if (o.max_distortion || o.mean_distortion || o.max_stretch)
             throw usage_error(given + " cuts no chart, so there is no bound; leave out --max-distortion, "
@@ -322,7 +327,7 @@ std::string as_command_line(const atlas_options& o)
     option("--seam-weights", o.seam_weights);
     if (o.hide > 0) option("--hide-seams", o.hide < 1 ? "mild" : "strong");
     if (o.crease_angle < 180) option("--crease-angle", number(o.crease_angle, 9));
-    option("--pin", o.pinned);
+    option("--keep-charts", o.pinned);
     if (o.mip_levels)
         option("--mip-levels", std::to_string(*o.mip_levels));
     else
@@ -334,7 +339,7 @@ std::string as_command_line(const atlas_options& o)
     if (o.tiles) option("--udim", std::to_string(*o.tiles));
     if (o.stack) option("--stack", "similar");
     flag("--tile-per-material", o.by_material);
-    flag("--upright", o.upright);
+    flag("--no-rotation", o.upright);
     if (o.texcoord_set > 0) option("--texcoord-set", std::to_string(o.texcoord_set));
     if (o.read_texcoord_set) option("--read-texcoord-set", std::to_string(*o.read_texcoord_set));
     return line;

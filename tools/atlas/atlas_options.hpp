@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/atlas/atlas_params.hpp>
-#include <taut/impl/io/read_surface.hpp>
+#include <taut/atlas.hpp>
+#include <taut/surface_file.hpp>
 
 #include "atlas/atlas_source.hpp"
 #include "shared/options.hpp"

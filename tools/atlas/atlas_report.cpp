@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/io/surface/obj_output.hpp>
-#include <taut/impl/mesh/ideal.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
+#include <taut/impl/files/surface/obj_output.hpp>
 
 #include "shared/assessment.hpp"
 #include "shared/peak_memory.hpp"
@@ -64,7 +64,7 @@ nlohmann::ordered_json head_of(const atlas_run_report& r, const atlas_options& o
     json["area_difference"] = finite(a.area_difference);
     json["density_spread"] = finite(a.density_spread);
     json["large_charts"] =
-        std::count_if(a.charts.begin(), a.charts.end(), [](const impl::chart_summary& c) { return c.triangles > 10; });
+        std::count_if(a.charts.begin(), a.charts.end(), [](const chart_summary& c) { return c.triangles > 10; });
     if (a.symmetry)
         json["symmetry"] = {{"normal", {a.symmetry->normal.x, a.symmetry->normal.y, a.symmetry->normal.z}},
                             {"offset", a.symmetry->offset},

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include <report/atlas_page.hpp>
-#include <taut/impl/atlas/make_atlas.hpp>
-#include <taut/impl/io/atomic_file.hpp>
-#include <taut/impl/repair/repair_finding.hpp>
+#include <taut/atlas.hpp>
+#include <taut/files.hpp>
+#include <taut/repair.hpp>
 
 #include "atlas/atlas_options.hpp"
 #include "shared/exit_codes.hpp"
@@ -25,7 +25,7 @@ struct atlas_run_report
         std::string input, output;
         idx vertices = 0, triangles = 0; ///< of the file
         idx mapped = 0;                  ///< triangles that have a place in the atlas
-        std::vector<impl::repair_finding> repairs;
+        std::vector<repair_finding> repairs;
     };
 
     std::vector<surface> surfaces;

@@ -7,10 +7,12 @@
 #include <set>
 #include <string_view>
 
-#include <taut/impl/core/disjoint_sets.hpp>
-#include <taut/impl/io/surface/obj_statements.hpp>
-#include <taut/impl/io/write_obj.hpp>
-#include <taut/impl/mesh/describe.hpp>
+#include <taut/impl/core/core/disjoint_sets.hpp>
+#include <taut/impl/core/mesh/describe.hpp>
+#include <taut/impl/files/gltf/gltf.hpp>
+#include <taut/impl/files/surface/obj_statements.hpp>
+#include <taut/impl/files/surface/surface_file_bodies.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/failure.hpp"
 #include "shared/repair_report.hpp"

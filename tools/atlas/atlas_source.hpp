@@ -10,10 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/gltf/gltf.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_files.hpp>
-#include <taut/impl/repair/repair_surface.hpp>
+#include <taut/files.hpp>
+#include <taut/gltf.hpp>
+#include <taut/impl/files/gltf/gltf.hpp>
+#include <taut/repair.hpp>
+#include <taut/surface_file.hpp>
 
 namespace taut::tools
 {
@@ -41,10 +42,9 @@ public:
     idx cell_origin(idx c) const { return repaired_ ? repaired_->cell_origins[static_cast<std::size_t>(c)] : c; }
 
     /// Repairs of the input.
-    std::span<const impl::repair_finding> repairs() const
+    std::span<const repair_finding> repairs() const
     {
-        return repaired_ ? std::span<const impl::repair_finding>(repaired_->findings)
-                         : std::span<const impl::repair_finding>();
+        return repaired_ ? std::span<const repair_finding>(repaired_->findings) : std::span<const repair_finding>();
     }
 
     /// Texture coordinates of the file, in the plane of the atlas, one per corner of the surface; or empty.

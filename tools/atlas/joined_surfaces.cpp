@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <utility>
 
-#include <taut/impl/io/surface/obj_output.hpp>
+#include <taut/impl/files/surface/obj_output.hpp>
 
 namespace taut::tools
 {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/atlas/make_atlas.hpp>
-#include <taut/impl/mesh/facets.hpp>
+#include <taut/atlas.hpp>
+#include <taut/impl/core/mesh/facets.hpp>
 
 #include "atlas/atlas_source.hpp"
 

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include <taut/impl/atlas/chart_mesh.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
 
 #include "paste/face_list.hpp"
 #include "shared/failure.hpp"
@@ -33,7 +34,7 @@ std::vector<char> pinned_of(const atlas_source& source, const impl::facet_table&
         for (const vec2& x : uv[u(c)])
             if (std::isnan(x.x))
                 throw unsuitable_input(path + ": face " + std::to_string(face[u(c)]) +
-                                       " has no texture coordinates (vt) to stay at; do not pin it");
+                                       " has no texture coordinates (vt) to stay at; do not name it");
     };
     for (std::size_t c = 0; c < cells.size(); ++c)
         if (const auto at = std::lower_bound(named.begin(), named.end(), face[c]); at != named.end() && *at == face[c])
@@ -53,6 +54,10 @@ std::vector<char> pinned_of(const atlas_source& source, const impl::facet_table&
         for (auto s = 3 * u(c); s < 3 * u(c) + 3; ++s)
             if (const idx t = f.twin[s]; t >= 0 && (!torn[s] || face[s / 3] == face[u(t) / 3])) pin(t / 3);
     }
+    if (std::count(pinned.begin(), pinned.end(), char(0)) == 0)
+        throw usage_error("--keep-charts " + path +
+                          ": names a face of every chart, so that no chart is left to make; name "
+                          "fewer, or pack all charts anew with --charts pack");
     return pinned;
 }
 

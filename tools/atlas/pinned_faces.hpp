@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/mesh/facets.hpp>
+#include <taut/impl/core/mesh/facets.hpp>
 
 #include "atlas/atlas_source.hpp"
 
@@ -12,7 +12,8 @@ namespace taut::tools
 {
 
 /// One flag a triangle: those of the charts of the file's texture coordinates that have one of the faces which the file
-/// `path` names. f: facets of the surface. Throws io_error, unsuitable_input.
+/// `path` names. f: facets of the surface. Throws io_error, unsuitable_input, and
+/// usage_error where these are all.
 std::vector<char> pinned_of(const atlas_source& source, const impl::facet_table& f, const std::string& path);
 
 } // namespace taut::tools

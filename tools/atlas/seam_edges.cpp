@@ -8,7 +8,8 @@
 #include <set>
 #include <utility>
 
-#include <taut/impl/io/read_file.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/files/file/read_file.hpp>
 
 #include "shared/at.hpp"
 #include "shared/edge_list.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/mesh/facets.hpp>
+#include <taut/impl/core/mesh/facets.hpp>
 
 #include "atlas/atlas_options.hpp"
 #include "atlas/joined_surfaces.hpp"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include <taut/impl/gltf/gltf.hpp>
+#include <taut/gltf.hpp>
 
 #include "shared/choices.hpp"
 #include "shared/failure.hpp"
@@ -38,36 +38,38 @@ std::optional<std::pair<idx, idx>> size_of(std::string_view text)
 void declare_pictures(const subcommand& app, bake_options& o)
 {
     add_input(app, "--texture", o.texture, file_use{.read_as = "the texture", .tiles = true},
-              "The texture of OLD: PNG, JPEG or EXR, NAME.<UDIM>.png for one a tile; without it those of the "
-              "materials of a glTF model");
+              "The texture of OLD: PNG, JPEG or EXR, NAME.<UDIM>.png for one per tile; default the textures of a "
+              "glTF model");
     app.add_flag("--vertex-colours", o.colours_of_vertices, "Bake the colours of the vertices of OLD: PLY, OFF, glTF");
     add_output(app, "-o,--output", o.output,
                {.tiles = true, .extensions = {".png", ".exr", ".glb", ".gltf"}, .made_of = "NEW", .in_place = true},
-               "The texture of NEW, NAME.<UDIM>.png for one a tile; or NEW with its textures, of glTF")
+               "The texture of NEW, NAME.<UDIM>.png for one per tile; or NEW with its textures, for glTF")
         .required()
         .type_name("OUT.png|.exr|.glb");
     add_choice<texture_content>(
         app, "--content", o.content,
         {{"colour", texture_content::colour}, {"data", texture_content::data}, {"normal", texture_content::normal}},
-        "Numbers of the texture: colours of sRGB, any data as they are, or normals in tangent space");
+        "Content of the texture: sRGB colours, raw data, or normals in tangent space");
     add_choice<texture::filter>(app, "--filter", o.filter,
                                 {{"bilinear", texture::filter::bilinear}, {"nearest", texture::filter::nearest}},
                                 "Interpolation between old texels; nearest: for labels");
-    add_choice<texture::wrap>(app, "--wrap", o.wrap,
-                              {{"repeat", texture::wrap::repeat}, {"clamp", texture::wrap::clamp}},
-                              "Continuation of the old texture beyond the unit square");
+    add_choice<texture::wrap>(
+        app, "--wrap", o.wrap,
+        {{"repeat", texture::wrap::repeat}, {"clamp", texture::wrap::clamp}, {"mirror", texture::wrap::mirror}},
+        "Continuation of the old texture beyond the unit square; mirror: every other copy is "
+        "mirrored");
     app.add_option("--resolution", o.size, "Texels of the new texture, N or WIDTHxHEIGHT; default those of the old one")
         .type_name("N|WxH")
         .check([](const std::string& text)
                { return size_of(text) ? "" : text + " is no size from 1 to 32768, N or WxH"; });
-    app.add_option("--samples", o.samples, "Samples along each side of a new texel, of which the mean is taken")
+    app.add_option("--samples", o.samples, "Samples along each side of a new texel, which are averaged")
         .type_name("N")
         .check_range(1, 8)
         .capture_default_str();
-    app.add_option("--gutter", o.gutter, "Texels around charts that get the nearest texel of one; default all")
+    app.add_option("--gutter", o.gutter, "Texels around charts that are filled from the nearest chart; default all")
         .type_name("PX")
         .check(number_that([](double x) { return x >= 0; }, "must not be negative"));
-    app.add_option("--bits", o.bits, "Bits of a number in PNG, 8 or 16; default as the old texture")
+    app.add_option("--bits", o.bits, "Bits per channel in PNG, 8 or 16; default as the old texture")
         .type_name("N")
         .check_one_of({8, 16});
     app.add_flag("--green-down", o.green_down, "Green of normal maps grows downwards, as for DirectX");
@@ -79,20 +81,20 @@ void declare(const subcommand& app, bake_options& o)
 {
     o.given = [app](const std::string& name) { return app.given(name); };
     add_input(app, "OLD", o.before, file_use{.read_as = "the old surface", .with_images = true},
-              "The surface with the texture coordinates that the texture is made for: OBJ, OFF, PLY, glTF")
+              "The surface with the texture coordinates of the old texture: OBJ, OFF, PLY, glTF")
         .required();
-    add_input(app, "NEW", o.after, "the new surface", "The same faces with the new ones, such as `taut atlas` makes")
+    add_input(app, "NEW", o.after, "the new surface",
+              "The same faces with new texture coordinates, as from `taut atlas`")
         .required();
     declare_pictures(app, o);
-    add_output(
-        app, "--difference", o.difference, {.tiles = true, .extensions = {".png", ".exr"}},
-        "Draw in the old atlas by how much the surface looks different: eight times in .png, the numbers in .exr");
+    add_output(app, "--difference", o.difference, {.tiles = true, .extensions = {".png", ".exr"}},
+               "Draw the visible difference in the old atlas: times eight in .png, the numbers in .exr");
     add_format(app, o.format);
-    app.add_option("--texcoord-set", o.texcoord_set, "The N of TEXCOORD_N of OLD, of glTF")
+    app.add_option("--texcoord-set", o.texcoord_set, "N of TEXCOORD_N of OLD, for glTF")
         .type_name("N")
         .check_range(0, 7)
         .capture_default_str();
-    app.add_option("--new-texcoord-set", o.new_texcoord_set, "That of NEW; default the same")
+    app.add_option("--new-texcoord-set", o.new_texcoord_set, "N of TEXCOORD_N of NEW; default the same")
         .type_name("N")
         .check_range(0, 7);
     add_device(app, o.device);
@@ -109,21 +111,22 @@ namespace
 void check_of_model(const bake_options& o)
 {
     if (o.given("--texcoord-set") && !io::is_gltf(o.before) && !io::is_gltf(o.after))
-        throw usage_error("--texcoord-set is of glTF; leave it out");
+        throw usage_error("--texcoord-set is for glTF; leave it out");
     if (o.given("--format") && io::is_gltf(o.before))
-        throw usage_error("--format is of OBJ, OFF, PLY and STL; leave it out for glTF");
+        throw usage_error("--format is for OBJ, OFF, PLY and STL; leave it out for glTF");
     if (o.given("--new-texcoord-set") && !io::is_gltf(o.after))
-        throw usage_error("--new-texcoord-set is of glTF; leave it out");
+        throw usage_error("--new-texcoord-set is for glTF; leave it out");
     if (!o.of_model())
     {
         if (o.green_down && o.content != texture_content::normal)
-            throw usage_error("--green-down is of normals; give --content normal, or leave it out");
+            throw usage_error("--green-down is for normals; give --content normal, or leave it out");
         return;
     }
     if (o.given("--content"))
-        throw usage_error("--content: materials say what their textures are; leave it out, or give --texture");
+        throw usage_error(
+            "--content: materials determine the content of their textures; leave it out, or give --texture");
     if (o.given("--wrap"))
-        throw usage_error("--wrap: the model says how its textures go on; leave it out, or give --texture");
+        throw usage_error("--wrap: the model determines how its textures continue; leave it out, or give --texture");
 }
 
 } // namespace
@@ -141,21 +144,21 @@ void check(const bake_options& o)
                           "--texture");
     if (!o.of_model() && into_model)
         throw usage_error("-o " + o.output + ": one texture is written as .png or .exr; name it so");
-    if (o.of_model() && !o.difference.empty()) throw usage_error("--difference is of one texture; give --texture");
+    if (o.of_model() && !o.difference.empty()) throw usage_error("--difference is for one texture; give --texture");
     if (o.filter == texture::filter::nearest && o.samples > 1)
-        throw usage_error("--samples: a mean of labels is none; leave it out with --filter nearest");
+        throw usage_error("--samples: labels have no mean; leave it out with --filter nearest");
     if (o.colours_of_vertices && o.content == texture_content::normal)
-        throw usage_error("--content normal is of textures; leave it out with --vertex-colours");
+        throw usage_error("--content normal is for textures; leave it out with --vertex-colours");
     if (o.colours_of_vertices && !o.difference.empty())
-        throw usage_error("--difference is of textures; leave it out with --vertex-colours");
+        throw usage_error("--difference is for textures; leave it out with --vertex-colours");
     if (o.colours_of_vertices && (o.given("--filter") || o.given("--wrap")))
-        throw usage_error("--filter and --wrap are of textures; leave them out with --vertex-colours");
+        throw usage_error("--filter and --wrap are for textures; leave them out with --vertex-colours");
     check_of_model(o);
     if (o.given("--wrap") && names_tiles(o.texture))
-        throw usage_error("--wrap: textures of tiles end where the next one begins; leave it out with <UDIM>");
+        throw usage_error("--wrap: the texture of a tile ends at its border; leave it out with <UDIM>");
     if (names_tiles(o.texture) && !o.difference.empty() && !names_tiles(o.difference))
-        throw usage_error("--difference: is drawn for each tile of --texture; name it NAME.<UDIM>.png");
-    if (o.bits > 0 && extension(o.output) == ".exr") throw usage_error("--bits is of PNG; EXR has floats");
+        throw usage_error("--difference is drawn for each tile of --texture; name it NAME.<UDIM>.png");
+    if (o.bits > 0 && extension(o.output) == ".exr") throw usage_error("--bits is for PNG; EXR has floats");
 }
 
 bake_params to_params(const bake_options& o)

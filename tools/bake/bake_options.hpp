@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include <taut/impl/bake/bake_params.hpp>
-#include <taut/impl/io/read_surface.hpp>
+#include <taut/bake.hpp>
+#include <taut/surface_file.hpp>
 
 #include "bake/model_textures.hpp"
 #include "shared/options.hpp"

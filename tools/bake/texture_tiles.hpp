@@ -1,38 +1,45 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
-#include <taut/impl/bake/bake.hpp>
+#include <taut/bake.hpp>
+
+#include "bake/textured_surface.hpp"
 
 namespace taut::tools
 {
 
-using corner_uv = std::vector<std::array<vec2, 3>>;
+/// The tile of UDIM that a triangle is in, by the middle of its box: number 0 is 1001, ten in a row. None below or left
+/// of the first tile, right of the tenth, or without a place.
+std::optional<idx> tile_of(const std::array<vec2, 3>& uv);
 
-/// Textures by tile of UDIM: number 0 is 1001, ten in a row; or one for all, as 0.
-struct tile_set
-{
-    bool several = false; ///< whether tiles have textures of their own
-    std::map<idx, texture> images;
-};
+/// Lower left corner of a tile.
+vec2 corner_of(idx tile);
 
-/// The tiles that triangles are in, each by the middle of its box; one that leaves its tile counts as of that. None of
-/// triangles below or left of the first tile, or right of the tenth.
+/// The tiles that triangles are in.
 std::set<idx> tiles_of(const corner_uv& uv);
 
-/// Triangles of a tile, moved to the unit square; others without a place.
-corner_uv in_tile(const corner_uv& uv, idx tile);
+/// Triangles of an atlas in tiles, or in one texture for all, which is tile 0.
+struct tiled_uv
+{
+    const corner_uv& uv;
+    bool several = false; ///< whether tiles have textures of their own
+};
 
-/// Makes the textures of tiles: each from all old ones that its triangles have a place in.
-/// several: whether each of the tiles of `to` gets one; else the first alone
-/// bake: makes one of one, as taut::bake() does
-std::map<idx, baked_texture>
-bake_tiles(const tile_set& old, const corner_uv& from, const corner_uv& to, bool several, const bake_params& params,
-           const std::function<baked_texture(const texture&, const corner_uv&, const bake_params&)>& bake);
+/// Triangles by the tile of the new atlas that they reach into, and that of the old one that they are in.
+using triangles_of_tiles = std::map<idx, std::map<idx, std::vector<idx>>>;
+
+/// Those with a place in both atlases. A new tile is one that a triangle is in.
+triangles_of_tiles triangles_by_tiles(const tiled_uv& old, const tiled_uv& next);
+
+/// How many triangles of an atlas lie outside of its textures, all or in part: of its tiles, or of the unit square.
+std::size_t count_outside(const tiled_uv& atlas);
+
+/// Takes over texels that are in triangles, and those near to them where there are no others.
+void merge(baked_texture& into, const baked_texture& part);
 
 } // namespace taut::tools

@@ -6,9 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include <taut/impl/bake/tangent_frames.hpp>
-#include <taut/impl/exact/predicates.hpp>
-#include <taut/impl/gltf/vertex_attribute.hpp>
+#include <taut/bake.hpp>
+#include <taut/impl/charts/bake/tangent_frames.hpp>
+#include <taut/impl/core/exact/predicates.hpp>
+#include <taut/impl/files/gltf/vertex_attribute.hpp>
 
 #include "shared/at.hpp"
 #include "shared/failure.hpp"
@@ -28,8 +29,6 @@ void leave_out_unusable(textured_surface& s)
     const auto is_usable = [&](idx v) { return v >= 0 && at(v) < s.points.size() && impl::finite(s.points[at(v)]); };
     for (std::size_t t = 0; t < s.triangles.size(); ++t)
     {
-        // Those that are left out of a map of glTF have all corners in one place.
-        if (s.uv[t][0] == s.uv[t][1] && s.uv[t][0] == s.uv[t][2]) s.uv[t].fill(no_place);
         if (std::all_of(s.triangles[t].begin(), s.triangles[t].end(), is_usable)) continue;
         s.uv[t].fill(no_place);
         s.triangles[t] = {0, 0, 0};
@@ -46,20 +45,32 @@ void take_normals(textured_surface& s, NormalAt normal_at)
     s.has_normals = true;
 }
 
-/// Tangents of all corners, or none.
-std::vector<impl::corner_tangents> read_tangents(const io::gltf_model& model)
+/// Tangents of corners, which count in glTF only where there are normals.
+std::vector<corner_tangents> read_tangents(const io::gltf_model& model, const io::impl::corner_attribute& normals)
 {
     const auto read = io::impl::read_attribute(model, "TANGENT");
-    const auto is_known = [](double x) { return std::isfinite(x); };
-    if (read.components != 4 || !std::all_of(read.values.begin(), read.values.end(), is_known)) return {};
-    std::vector<impl::corner_tangents> tangents(model.triangles.size());
+    if (read.components != 4 || normals.components != 3) return {};
+    std::vector<corner_tangents> tangents(model.triangles.size());
     for (std::size_t t = 0; t < tangents.size(); ++t)
         for (std::size_t k = 0; k < 3; ++k)
         {
             const double* const x = read.at(t, k);
-            tangents[t][k] = vec<4>(x[0], x[1], x[2], x[3] < 0 ? -1 : 1);
+            const bool is_known = std::isfinite(normals.at(t, k)[0]);
+            tangents[t][k] = vec<4>(is_known ? x[0] : no_place.x, x[1], x[2], x[3] < 0 ? -1 : 1);
         }
     return tangents;
+}
+
+/// Normals of the triangles themselves, which glTF has where it says none.
+std::vector<std::array<vec3, 3>> flat_normals(const textured_surface& s)
+{
+    std::vector<std::array<vec3, 3>> normals(s.triangles.size());
+    for (std::size_t t = 0; t < normals.size(); ++t)
+    {
+        const auto x = impl::corners_of(s.points, s.triangles[t]);
+        normals[t].fill(impl::normalised(glm::cross(x[1] - x[0], x[2] - x[0]), vec3(0, 0, 1)));
+    }
+    return normals;
 }
 
 void read_model(textured_surface& s, int texcoord_set)
@@ -74,9 +85,10 @@ void read_model(textured_surface& s, int texcoord_set)
             if (const idx x = model.texcoord_cells[t][k]; x >= 0)
                 s.uv[t][k] = vec2(model.texcoords[at(x)].x, 1 - model.texcoords[at(x)].y);
     leave_out_unusable(s);
-    s.normals = smooth_normals(s.points, s.triangles);
-    s.tangents = read_tangents(model);
+    s.normals = flat_normals(s);
+    s.has_normals = true;
     const auto normals = io::impl::read_attribute(model, "NORMAL");
+    s.tangents = read_tangents(model, normals);
     if (normals.components != 3) return;
     take_normals(s,
                  [&](std::size_t t, std::size_t k)
@@ -121,6 +133,18 @@ textured_surface read_textured_surface(const std::string& path, io::surface_form
     else
         read_soup(s, format);
     return s;
+}
+
+bool has_place(const std::array<vec2, 3>& uv)
+{
+    return std::all_of(uv.begin(), uv.end(), [](const vec2& x) { return impl::finite(x); });
+}
+
+corner_uv with_area(corner_uv uv)
+{
+    for (auto& t : uv)
+        if (impl::orient2d(t[0], t[1], t[2]) == 0) t.fill(no_place);
+    return uv;
 }
 
 vertex_colours read_vertex_colours(const textured_surface& s, io::surface_format format)

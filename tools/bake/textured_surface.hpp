@@ -6,13 +6,19 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/bake/tangent_frames.hpp>
-#include <taut/impl/core/types.hpp>
-#include <taut/impl/gltf/gltf.hpp>
-#include <taut/impl/io/read_surface.hpp>
+#include <taut/bake.hpp>
+#include <taut/gltf.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/types.hpp>
 
 namespace taut::tools
 {
+
+/// Texture coordinates of the corners of triangles.
+using corner_uv = std::vector<std::array<vec2, 3>>;
+
+/// Whether all corners of a triangle have finite texture coordinates.
+bool has_place(const std::array<vec2, 3>& uv);
 
 /// Colours of vertices.
 struct vertex_colours
@@ -28,16 +34,20 @@ struct textured_surface
     std::string path;
     std::vector<vec3> points;
     std::vector<std::array<idx, 3>> triangles;
-    std::vector<std::array<vec2, 3>> uv;         ///< v upwards; not a number where there is none
-    std::vector<std::array<vec3, 3>> normals;    ///< unit vectors; those of the file, else smooth ones
-    bool has_normals = false;                    ///< whether the file has them
-    std::vector<impl::corner_tangents> tangents; ///< those of the file, if it has them for all corners
-    std::optional<io::gltf_model> model;         ///< of glTF
+    corner_uv uv;                             ///< v upwards; not a number where there is none
+    std::vector<std::array<vec3, 3>> normals; ///< unit vectors; those of the file, else smooth ones, flat ones in glTF
+    bool has_normals = false;                 ///< whether the file says them
+    std::vector<corner_tangents> tangents;    ///< those of the file; not numbers where it has none
+    std::optional<io::gltf_model> model;      ///< of glTF
     std::vector<std::string> notes;
 };
 
 /// Throws io_error, mesh_error.
 textured_surface read_textured_surface(const std::string& path, io::surface_format format, int texcoord_set);
+
+/// Leaves out triangles without an area: they have no texels. Those that a map of glTF leaves out have all corners in
+/// one place.
+corner_uv with_area(corner_uv uv);
 
 /// The colours of the vertices of a file: of PLY, OFF, or COLOR_0 of glTF. Throws unsuitable_input where it has none.
 vertex_colours read_vertex_colours(const textured_surface& surface, io::surface_format format);

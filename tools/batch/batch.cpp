@@ -28,6 +28,8 @@
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
 
+#include <taut/impl/files/file/atomic_file_bodies.hpp>
+
 namespace taut::tools
 {
 
@@ -70,19 +72,20 @@ exit_code run(batch_options options, const outputs& files, const run_clock& cloc
     if (options.run.from_standard_input == !options.manifest.empty())
         throw usage_error("jobs come from --manifest or from --stdin: give one of them");
     if (options.run.from_standard_input && part->count > 1)
-        throw usage_error("--stdin takes all jobs that come; --shard is for a manifest");
+        throw usage_error("--stdin takes all jobs; --shard is for a manifest");
     if (options.run.resume && io::impl::is_stream(options.out))
-        throw usage_error("--resume needs the file of results: name it with --out");
+        throw usage_error("--resume needs the file of results: name it with --output");
     const char* const place = options.quiet ? nullptr : files.place_of_report();
 
+    options.run.caches = options.cache.empty() ? batch::default_caches() : std::filesystem::path(options.cache);
+    options.run.own = {options.run.from_standard_input ? standard_input : options.manifest, options.out,
+                       options.run.caches.string()};
     std::vector<batch::job> jobs, own;
     if (!options.run.from_standard_input) jobs = batch::read_manifest(options.manifest);
-    batch::require_own_files(jobs, options.manifest);
+    batch::require_own_files(jobs, options.run.own);
     for (std::size_t k = 0; k < jobs.size(); ++k)
         if (part->has(k)) own.push_back(std::move(jobs[k]));
-    options.run.caches = options.cache.empty() ? batch::default_caches() : std::filesystem::path(options.cache);
-    if (std::isfinite(options.memory_limit))
-        options.run.bounds.memory = static_cast<std::uint64_t>(options.memory_limit);
+    if (std::isfinite(options.memory_limit)) options.run.bounds.memory = batch::whole_bytes(options.memory_limit);
     const auto wanted = static_cast<std::size_t>(options.jobs);
     options.run.at_once = batch::most_jobs_at_once(wanted);
     if (options.run.at_once == 0) throw usage_error("--jobs: too few files may be open for a job; raise `ulimit -n`");
@@ -123,27 +126,25 @@ command add_batch(command_line& program, std::chrono::steady_clock::time_point l
         R"(if wanted, "time_limit": S and "memory_limit": BYTES)")
         .type_name("FILE.jsonl");
     app.add_flag("--stdin", o.run.from_standard_input,
-                 "Take the jobs from standard input as they come, in the form of a manifest, until it ends");
-    add_output(app, "--out", o.out, {.otherwise = standard_output},
+                 "Read jobs from standard input, one manifest line each, until it ends");
+    add_output(app, "-o,--output", o.out, {.otherwise = standard_output},
                "Append the results, one JSON object per line; - is standard output")
         .type_name("FILE.jsonl");
-    app.add_option("--shard", o.shard,
-                   "Only part i of N of the jobs, i from 1 to N; auto: as the scheduler says that started this")
+    app.rename("--out", "--output");
+    app.add_option("--shard", o.shard, "Only part i of N of the jobs, i from 1 to N; auto: from the scheduler")
         .type_name("i/N|auto");
     app.add_flag("--resume", o.run.resume,
-                 "Leave out jobs that have a result in --out, where arguments and inputs are the same and the outputs "
-                 "exist");
+                 "Skip jobs with a result in --output for the same arguments and inputs, if the outputs exist");
     app.add_flag("--retry", o.run.retry, "As --resume, but run failed jobs again");
     app.add_option("--jobs", o.jobs, "Number of jobs at once; they share the processors")
         .type_name("N")
         .check(number_that([](double x) { return x >= 1 && x <= 4096; }, "must be from 1 to 4096"))
         .capture_default_str();
     add_time_limit(app, o.run.bounds.seconds,
-                   "Time limit of jobs without one of their own: they end after S seconds, with "
-                   "their best result");
-    app.add_option("--memory-limit", o.memory_limit, "Memory limit of jobs without one of their own")
+                   "Default time limit of jobs: they end after S seconds, with their best result");
+    app.add_option("--memory-limit", o.memory_limit, "Default memory limit of jobs")
         .type_name("BYTES")
-        .check(number_that([](double x) { return x > 0; }, "must be positive"));
+        .check(number_that([](double x) { return x >= 1; }, "must be at least 1"));
     app.add_option("--grace", o.run.bounds.grace, "Time to write the best result, before a job is killed")
         .type_name("S")
         .check(number_that([](double x) { return x >= 0; }, "must not be negative"))
@@ -151,9 +152,8 @@ command add_batch(command_line& program, std::chrono::steady_clock::time_point l
     app.add_option("--cache", o.cache, "Folder of compiled kernels, with a subfolder for each running job")
         .type_name("FOLDER");
     add_progress(app, o.progress, o.quiet);
-    app.footer("exit codes: 0 all jobs have a valid map; 10 all were run, and some failed; 2, 3 "
-               "as other commands;\n  130, 143 interrupted: running jobs are done again with "
-               "--resume");
+    app.footer("exit codes: 0 all jobs have a valid map; 10 all ran, and some failed; 2, 3 as for other "
+               "commands;\n  130, 143 interrupted: --resume runs the unfinished jobs again");
     return [options, launch](const outputs& files) { return run(*options, files, run_clock(launch)); };
 }
 

@@ -129,7 +129,8 @@ public:
         std::optional<nlohmann::ordered_json> stats;
         if (files_.stats == standard_output)
             stats = parsed(std::istringstream(end.printed));
-        else if (std::find(written.begin(), written.end(), files_.stats) != written.end())
+        else if (std::error_code unknown; std::filesystem::is_regular_file(files_.stats, unknown) && // no pipe
+                                          std::find(written.begin(), written.end(), files_.stats) != written.end())
             stats = parsed(std::ifstream(files_.stats));
         return make_result(job_, end, inputs_, hashes_of(written), stats);
     }
@@ -159,7 +160,11 @@ public:
     {
         if (options.from_standard_input)
             stream_.emplace(STDIN_FILENO, "standard input",
-                            [this](const std::string& id, const std::string& why) { refuse(id, why); });
+                            [this](const std::string& id, const std::string& why)
+                            {
+                                ++refused_;
+                                refuse(id, result::array(), exit_code::unreadable_input, why);
+                            });
         if (options.resume) before_ = results.read();
     }
 
@@ -186,15 +191,13 @@ private:
 
     bool may_come() const { return stream_ && !stream_->ended() && !interrupted() && !failure_; }
 
-    /// The answer to a line that is no job.
-    void refuse(const std::string& id, const std::string& why)
+    /// The answer to what is not run.
+    void refuse(const std::string& id, const result& args, exit_code code, const std::string& why)
     {
-        results_.append({{"id", id},
-                         {"args", result::array()},
-                         {"code", to_int(exit_code::unreadable_input)},
-                         {"outcome", "unreadable_input"},
-                         {"error", why}});
-        ++refused_, ++count_.done, ++count_.failed;
+        child_end end;
+        end.code = to_int(code);
+        results_.append({{"id", id}, {"args", args}, {"code", end.code}, {"outcome", outcome_of(end)}, {"error", why}});
+        ++count_.done, ++count_.failed;
     }
 
     /// Gives work to those who have none.
@@ -212,6 +215,13 @@ private:
             const job& j = jobs_[next_++];
             auto files = arguments_.files(j.args);
             if (skipped(j, files)) continue;
+            job_conflicts with_batch(options_.own); // as links are now
+            with_batch.add(j.id, files);
+            if (const auto why = with_batch.found(); !why.empty())
+            {
+                refuse(j.id, j.args, exit_code::usage, why);
+                continue;
+            }
             try
             {
                 if (!w.cache)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "batch/job.hpp"
+#include "batch/job_conflicts.hpp"
 #include "batch/result.hpp"
 #include "shared/child.hpp"
 
@@ -21,6 +22,7 @@ struct run_options
     bool retry = false;               ///< but for those that failed
     limits bounds;                    ///< of jobs that have none of their own
     std::filesystem::path caches;     ///< of compiled kernels
+    batch_files own;                  ///< that no job may write
     bool from_standard_input = false; ///< jobs come by standard input while others run, until it ends
 };
 
@@ -37,10 +39,10 @@ std::size_t most_jobs_at_once(std::size_t wanted);
 
 /// Runs jobs, each in a process of its own, and appends a result for each as it ends.
 /// tell: how far it is, from time to time
-/// A line of standard input that is no job has a result of code 3, and does not end the run.
-/// Where the system refuses one more process, it goes on with those it has. Interrupted, it asks the jobs at work to
-/// end and waits for them; they get no result. Throws io_error if a result cannot be written, and usage_error if not
-/// even one job can be started.
+/// A line of standard input that is no job has a result of code 3, a job that would write what the batch itself reads
+/// or writes one of code 2, and neither ends the run. Where the system refuses one more process, it goes on with those
+/// it has. Interrupted, it asks the jobs at work to end and waits for them; they get no result. Throws io_error if a
+/// result cannot be written, and usage_error if not even one job can be started.
 tally run_jobs(const std::vector<job>& jobs, result_file& results, const run_options& options,
                const std::function<void(const tally&)>& tell);
 

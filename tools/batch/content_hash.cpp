@@ -13,15 +13,17 @@
 
 #include <openssl/evp.h>
 
-#include <taut/impl/io/atomic_file.hpp>
+#include <taut/files.hpp>
 
 namespace taut::tools::batch
 {
 
 std::optional<std::string> content_hash(const std::string& path)
 {
-    const io::impl::descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     struct stat status = {};
+    // A pipe that is opened and closed again is taken from the job: its writer would end.
+    if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    const io::impl::descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
     if (!file || ::fstat(*file, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
 
     const std::unique_ptr<EVP_MD_CTX, void (*)(EVP_MD_CTX*)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <istream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/io/read_file.hpp>
+#include <taut/impl/files/file/read_file.hpp>
 
 namespace taut::tools::batch
 {
@@ -25,14 +26,24 @@ class manifest_line
 public:
     manifest_line(const std::string& path, std::size_t number, const std::string& text) : path_(path), number_(number)
     {
-        object_ = nlohmann::json::parse(text, nullptr, false);
+        std::set<std::string> keys;
+        std::string twice;
+        const auto note_key = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& key)
+        {
+            if (event == nlohmann::json::parse_event_t::key && depth == 1 &&
+                !keys.insert(key.get<std::string>()).second)
+                twice = key.get<std::string>();
+            return true;
+        };
+        object_ = nlohmann::json::parse(text, note_key, false);
         if (object_.is_discarded()) refuse("is no JSON");
         if (!object_.is_object()) refuse("is no JSON object");
+        if (!twice.empty()) refuse("has the key " + twice + " twice; one would have no effect");
     }
 
     [[noreturn]] void refuse(const std::string& why) const
     {
-        throw io::io_error(path_, why, io::impl::file_place{io::impl::file_place::line, number_});
+        throw io::io_error(path_, why, io::file_place{io::file_place::line, number_});
     }
 
     job read() const
@@ -46,7 +57,7 @@ public:
             else if (key == "time_limit")
                 one.time_limit = positive(key, value);
             else if (key == "memory_limit")
-                one.memory_limit = static_cast<std::uint64_t>(std::min(positive(key, value), 1e18));
+                one.memory_limit = whole_bytes(positive(key, value));
             else
                 refuse("has the key " + key + "; there are id, args, time_limit and memory_limit");
         if (one.id.empty()) refuse("has no id; give each job one of its own");
@@ -86,6 +97,11 @@ private:
 
 } // namespace
 
+std::uint64_t whole_bytes(double bytes)
+{
+    return static_cast<std::uint64_t>(std::clamp(bytes, 1.0, 1e18));
+}
+
 std::optional<job> parse_job(const std::string& text, const std::string& path, std::size_t line)
 {
     if (text.find_first_not_of(" \t\r") == std::string::npos) return std::nullopt;
@@ -112,7 +128,7 @@ std::vector<job> parse_manifest(std::istream& in, const std::string& path)
         const auto [before, fresh] = line_of.emplace(jobs.back().id, number);
         if (!fresh)
             throw io::io_error(path, "has the id " + before->first + " of line " + std::to_string(before->second),
-                               io::impl::file_place{io::impl::file_place::line, number});
+                               io::file_place{io::file_place::line, number});
     }
     if (in.bad()) throw io::io_error(path, "cannot be read; name a file that can");
     return jobs;

@@ -20,15 +20,17 @@ struct job
     std::optional<std::uint64_t> memory_limit; ///< bytes of resident memory; nothing: that of the run
 };
 
+/// A limit of memory in whole bytes, at least one, and no more than any machine has.
+std::uint64_t whole_bytes(double bytes);
+
 /// Reads a manifest: a JSON object a line, `{"id": "...", "args": ["unwrap", ...], "time_limit": S, "memory_limit":
 /// BYTES}`, the last two as wanted. Empty lines count and mean nothing.
 /// Throws io::io_error with the line: what is no such object, has another key, an id twice, no argument, or a command
 /// that is no job (`batch` itself, and `view`, which waits for a person).
 std::vector<job> read_manifest(const std::string& path);
 /// One line of it; none for an empty one. Throws io::io_error.
-std::optional<job>
-parse_job(const std::string& text, const std::string& path,
-          std::size_t line); /// The id that a line names, be it a job or not; empty if it names none.
+std::optional<job> parse_job(const std::string& text, const std::string& path, std::size_t line);
+/// The id that a line names, be it a job or not; empty if it names none.
 std::string id_in(const std::string& text);
 std::vector<job> parse_manifest(std::istream& text, const std::string& path);
 

@@ -8,7 +8,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <taut/impl/io/io_error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::tools::batch
 {

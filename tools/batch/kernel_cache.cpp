@@ -11,7 +11,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <taut/impl/core/private_folder.hpp>
+#include <taut/impl/core/compute/program/private_folder.hpp>
 
 #include "shared/failure.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include <taut/impl/io/atomic_file.hpp>
+#include <taut/files.hpp>
 
 namespace taut::tools::batch
 {

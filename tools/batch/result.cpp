@@ -21,6 +21,8 @@
 #include "shared/exit_codes.hpp"
 #include "shared/failure.hpp"
 
+#include <taut/impl/files/file/atomic_file_bodies.hpp>
+
 namespace taut::tools::batch
 {
 
@@ -218,7 +220,7 @@ result_file::result_file(const std::string& path) : path_(path)
     std::ifstream in(path, std::ios::binary);
     const auto found = ending_of(in);
     if (found.needs == result_ending::other_file)
-        throw usage_error("--out " + path + ": is there already, and its " +
+        throw usage_error("--output " + path + ": is there already, and its " +
                           (found.several ? "first or last" : "only") +
                           " line is no result of a batch; name another file, or move it away");
     if ((found.needs == result_ending::line_end && ::write(*file_, "\n", 1) != 1) ||

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/io/atomic_file.hpp>
+#include <taut/files.hpp>
 
 #include "batch/job.hpp"
 #include "batch/job_files.hpp"

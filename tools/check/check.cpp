@@ -11,13 +11,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/mesh/ideal.hpp>
-#include <taut/impl/mesh/validate.hpp>
-#include <taut/impl/untangle/proofs/infeasible.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/charts/repair/repair_finding.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/impl/files/surface/surface_file_bodies.hpp>
+#include <taut/mesh.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/untangle.hpp>
+#include <taut/volume_file.hpp>
 
 #include "check/check_report.hpp"
 #include "commands.hpp"
@@ -39,14 +41,13 @@ namespace taut::tools
 namespace
 {
 
-/// Adds the pins of the file one by one, so that each fault is found. cut: of a surface that is cut open.
+/// Adds pins one by one, so that each fault is found. cut: of a surface that is cut open.
 template <class Element>
-void read_constraints(check_report& report, const std::string& path, constraints<Element>& pins, idx vertices,
-                      const std::optional<io::cut_surface>& cut = {})
+void add_constraints(check_report& report, const std::vector<io::pin<Element::dimension>>& read,
+                     constraints<Element>& pins, const std::optional<io::cut_surface>& cut = {})
 {
-    if (path.empty()) return;
     const auto divided = cut ? divided_vertices(*cut) : std::vector<idx>();
-    for (const auto& pin : io::read_pins<Element::dimension>(path, vertices)) try
+    for (const auto& pin : read) try
         {
             if constexpr (Element::dimension == 2) require_undivided({&pin, 1}, divided);
             pins.add(std::vector{pin});
@@ -128,7 +129,7 @@ void judge(check_report& report, const mesh<Element>& m, std::vector<vec<Element
 }
 
 /// Repairs of --repair.
-std::vector<impl::repair_finding> find_repairs(const io::surface_soup& soup)
+std::vector<repair_finding> find_repairs(const io::surface_soup& soup)
 {
     try
     {
@@ -145,7 +146,7 @@ std::vector<impl::repair_finding> find_repairs(const io::surface_soup& soup)
 }
 
 /// Adds what is known from mending alone. A mesh that can be used is no worse for it.
-void report_repairs(check_report& report, const std::vector<impl::repair_finding>& repairs, bool usable)
+void report_repairs(check_report& report, const std::vector<repair_finding>& repairs, bool usable)
 {
     for (const auto& r : repairs)
     {
@@ -158,7 +159,7 @@ void report_repairs(check_report& report, const std::vector<impl::repair_finding
 
 /// The surface of a file. One that cannot be made is a finding, with its place in the file and all others of its kind.
 std::optional<io::surface_file> find_surface(check_report& report, const std::string& path, io::surface_soup soup,
-                                             const std::vector<impl::repair_finding>& repairs)
+                                             const std::vector<repair_finding>& repairs)
 {
     try
     {
@@ -166,7 +167,7 @@ std::optional<io::surface_file> find_surface(check_report& report, const std::st
     }
     catch (const mesh_error& e)
     {
-        impl::mesh_finding found{e.fault(), e.ids(), e.what()};
+        mesh_finding found{e.fault(), e.ids(), e.what()};
         std::string action;
         for (const auto& r : repairs)
         {
@@ -199,14 +200,15 @@ void check_surface(check_report& report, const check_options& options)
     const auto& m = cut ? cut->surface : file->surface;
     for (const auto& f : taut::check(m, {.referenced = false}))
     {
-        const auto mends = [&](const impl::repair_finding& r)
+        const auto mends = [&](const repair_finding& r)
         { return std::string_view(to_string(r.kind)) == to_string(f.fault); };
         const auto at = std::find_if(repairs.begin(), repairs.end(), mends);
         report_mesh(report, f, true, at == repairs.end() ? std::string() : at->action);
     }
     report_repairs(report, repairs, true);
     auto pins = taut::constraints(m);
-    read_constraints(report, options.pins, pins, file->surface.vertex_count(), cut);
+    if (!options.pins.empty())
+        add_constraints(report, io::read_pins<2>(options.pins, file->surface.vertex_count()), pins, cut);
     judge(report, m, std::vector<vec2>(m.points().size(), vec2(0.0)), pins);
 }
 
@@ -225,13 +227,14 @@ void check_problem(check_report& report, const check_options& options, io::impl:
     report.has_map = true;
     report.map = certify<D>(problem.rest.cells(), std::span<const vec<D>>(problem.initial));
     // What touches at a vertex alone, and vertices without cells, are no obstacle to untangling.
-    const impl::mesh_requirements need{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
+    const mesh_requirements need{.connected = false, .open = false, .one_boundary = false, .no_handles = false};
     for (const auto& f : taut::check(problem.rest, need))
         report_mesh(report, f,
                     f.fault != mesh_error::unreferenced_vertex && f.fault != mesh_error::non_manifold_vertex);
     auto pins = taut::constraints(problem.rest);
     pins.fix(fixed, problem.initial);
-    read_constraints(report, options.pins, pins, problem.rest.vertex_count());
+    if (!options.pins.empty())
+        add_constraints(report, io::read_pins<D>(options.pins, problem.rest.vertex_count()), pins);
     judge(report, problem.rest, problem.initial, pins);
 }
 
@@ -245,7 +248,7 @@ void check_volume(check_report& report, const check_options& options)
                   report_cells(report, input);
                   const auto& m = input.simplices();
                   auto pins = taut::constraints(m);
-                  read_constraints(report, options.pins, pins, m.vertex_count());
+                  if (!options.pins.empty()) add_constraints(report, input.read_pins(options.pins), pins);
                   judge(report, m, input.points(), pins, input.owners());
               });
 }
@@ -256,9 +259,10 @@ check_report examine(const check_options& options)
     check_report report;
     try
     {
-        if (options.zone > 0 && !names_volume(options.input)) throw usage_error("--zone is of SU2 files; leave it out");
         const bool by_name = options.format == io::surface_format::automatic;
-        if (by_name && names_volume(options.input))
+        const bool volume = by_name && names_volume(options.input);
+        if (options.zone > 0 && !volume) throw usage_error("--zone is for SU2 files; leave it out");
+        if (volume)
             check_volume(report, options);
         else if (!options.format || (by_name && extension(options.input) == ".prob"))
             std::visit([&](auto&& file) { check_problem(report, options, std::move(file)); },
@@ -346,7 +350,7 @@ command add_check(command_line& program)
     const auto app =
         program.add_subcommand("check", "Report the faults of a surface, a volume, a problem or pins, without solving");
     add_input(app, "IN", options->input, "the input",
-              "Surface (OBJ, OFF, PLY, STL) as `unwrap` takes it, problem (.prob), or volume, or mesh of the plane "
+              "Surface for `unwrap` (OBJ, OFF, PLY, STL), problem (.prob), or volume or planar mesh "
               "(.mesh .msh .vtk .vtu .node .su2); - is standard input")
         .required();
     using io::surface_format;

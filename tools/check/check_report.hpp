@@ -9,11 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/certify.hpp>
+#include <taut/constraints.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/failure.hpp"
 
@@ -62,7 +62,7 @@ struct check_report
     }
 };
 
-inline void report_mesh(check_report& report, const impl::mesh_finding& f, bool wrong, const std::string& repair = {})
+inline void report_mesh(check_report& report, const mesh_finding& f, bool wrong, const std::string& repair = {})
 {
     const bool holes = f.fault == mesh_error::several_boundaries;
     report.add(

@@ -20,16 +20,16 @@ exit_code run(const shape_options& options, const outputs& files, std::chrono::s
     command_run command(options, files, launch);
     if (!options.smoothing && names_surface(options.input))
     {
-        if (options.refine) throw usage_error("--refine is of volumes and of meshes of the plane; leave it out");
-        if (options.zone > 0) throw usage_error("--zone is of SU2 files; leave it out");
+        if (options.refine) throw usage_error("--refine is for volumes and planar meshes; leave it out");
+        if (options.zone > 0) throw usage_error("--zone is for SU2 files; leave it out");
         return shell_run(options, command)();
     }
     if (options.thickness)
-        throw usage_error("--thickness is of surfaces in space (.obj, .off, .ply, .stl); leave it out");
+        throw usage_error("--thickness is for surfaces in space (.obj, .off, .ply, .stl); leave it out");
     command.tell("read");
     auto file = read_volume_at_rest(options.input, options.rest, options.zone);
     if (options.smoothing) file.rest.clear();
-    require_drawable(file, {options.picture, options.cut, options.smoothing});
+    require_drawable(file, {options.picture, options.clip, options.smoothing});
     require_mesh(file);
     return with_case(file, [&]<class Element>(const volume_case<Element>& input)
                      { return shape_run<Element>(options, command, input)(); });

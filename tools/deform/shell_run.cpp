@@ -16,14 +16,14 @@
 #include <nlohmann/json.hpp>
 
 #include <picture/render_picture.hpp>
-#include <taut/impl/exact/collapses.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_files.hpp>
-#include <taut/impl/io/write_obj.hpp>
-#include <taut/impl/map/deform.hpp>
-#include <taut/impl/measure/describe_defects.hpp>
+#include <taut/certify.hpp>
+#include <taut/deform.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/core/exact/collapses.hpp>
+#include <taut/impl/core/measure/describe_defects.hpp>
+#include <taut/impl/files/file/atomic_file_bodies.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/volume_file.hpp>
 
 #include "shared/assessment.hpp"
 #include "shared/command_run.hpp"
@@ -46,9 +46,9 @@ shell_run::shell_run(const shape_options& options, command_run& run) : options_(
     {
         if (given)
             throw usage_error(std::string(option) +
-                              " is of volumes and meshes of the plane, not of a surface in space; leave it out");
+                              " is for volumes and planar meshes, not for surfaces in space; leave it out");
     };
-    refuse(!options.cut.empty(), "--cut");
+    refuse(!options.clip.empty(), "--clip");
     refuse(!options.moves.empty(), "--move");
     refuse(!options.fixed.empty(), "--fix");
     refuse(options.energy != shape_energy::isometric, "--energy");
@@ -64,7 +64,9 @@ exit_code shell_run::operator()()
     const auto rest = options_.rest.empty() ? file.surface : shape_at_rest(file.surface);
     const thin_shell shell(rest);
     auto pins = taut::constraints(shell.hinges());
-    if (!options_.pins.empty()) pins.add(io::read_pins<3>(options_.pins, file.surface.vertex_count()));
+    std::vector<io::pin<3>> read;
+    if (!options_.pins.empty()) read = io::read_pins<3>(options_.pins, file.surface.vertex_count());
+    pins.add(read);
     pins.require_used(impl::unused_vertices(rest.points().size(), rest.cells()));
     vertices_ = file.surface.points().size();
     triangles_ = file.surface.cells().size();
@@ -82,6 +84,7 @@ exit_code shell_run::operator()()
     take(*found, rest, pins);
     if (points_.empty()) refuse();
     run_.notes.insert(run_.notes.begin(), file.notes.begin(), file.notes.end());
+    if (!options_.pins.empty() && read.empty()) run_.notes.push_back(options_.pins + no_pins);
     if (pins_ + springs_ == 0) run_.notes.emplace_back(nothing_held);
     write(file, rest);
     return code_;

@@ -6,10 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/io/surface_file.hpp>
-#include <taut/impl/map/session_result.hpp>
-#include <taut/impl/map/shell_params.hpp>
+#include <taut/constraints.hpp>
+#include <taut/session.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/command_run.hpp"
 #include "shared/exit_codes.hpp"

@@ -60,10 +60,10 @@ exit_code write_man_pages(const program_words& program, const std::filesystem::p
 command add_completion(command_line& program)
 {
     const auto kind = std::make_shared<shell>();
-    const auto app = program.add_subcommand("completion", "Print what completes commands and options in a shell");
+    const auto app = program.add_subcommand("completion", "Print a completion script for a shell");
     app.hide();
     add_choice<shell>(app, "SHELL", *kind, {{"bash", shell::bash}, {"zsh", shell::zsh}, {"fish", shell::fish}},
-                      "The shell that reads it")
+                      "The shell")
         .required();
     return [kind, &program](const outputs&)
     {
@@ -75,9 +75,9 @@ command add_completion(command_line& program)
 command add_man(command_line& program)
 {
     const auto folder = std::make_shared<std::string>();
-    const auto app = program.add_subcommand("man", "Write the pages of man, one a command");
+    const auto app = program.add_subcommand("man", "Write man pages, one per command");
     app.hide();
-    app.add_option("FOLDER", *folder, "Where they go; made if it is not there").required();
+    app.add_option("FOLDER", *folder, "Folder to write; created if missing").required();
     return [folder, &program](const outputs&) { return write_man_pages(describe(program), *folder); };
 }
 

@@ -105,14 +105,13 @@ std::string man_page(const program_words& program)
     if (text.ends_with('.')) text.pop_back();
     std::string page = header(own.name, own.name, text);
     page += ".SH SYNOPSIS\n" + bold(own.name) + ' ' + slanted("COMMAND") + " [" + slanted("OPTION") + "...] " +
-            slanted("FILE") + "...\n.SH DESCRIPTION\n" + plain(own.text) +
-            "\nEach command has a page of its own, and lists its options where " + bold("--help") +
-            " follows its name.\n.SH COMMANDS\n";
+            slanted("FILE") + "...\n.SH DESCRIPTION\n" + plain(own.text) + "\nEach command has its own page, and " +
+            bold("--help") + " after its name lists its options.\n.SH COMMANDS\n";
     for (const auto& command : program.commands)
         page += ".TP\n\\fB" + plain(own.name + '-' + command.name) + "\\fP(1)\n" + plain(command.text) + ".\n";
     page += section("OPTIONS", own.options) + exit_status(own.footer);
     page += ".SH ENVIRONMENT\n.TP\n" + bold("TAUT_DEVICE") +
-            "\nNumber or part of the name of the OpenCL device that is taken.\n.TP\n" + bold("TAUT_THREADS") +
+            "\nNumber or part of the name of the OpenCL device to use.\n.TP\n" + bold("TAUT_THREADS") +
             "\nHow many threads of the host work at a time.\n.TP\n" + bold("TAUT_CACHE_DIR") +
             "\nFolder of compiled programs, for drivers that keep none; 0: none are kept.\n.TP\n" + bold("TAUT_THEME") +
             "\nIf it is dark, pictures have a dark ground.\n";

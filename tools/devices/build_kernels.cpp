@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/compute/program/signature.hpp>
-#include <taut/impl/compute/record.hpp>
-#include <taut/impl/objective/element_hessian.hpp>
-#include <taut/impl/objective/mesh_levels.hpp>
-#include <taut/impl/objective/newton_plan.hpp>
-#include <taut/impl/objective/volume_objective.hpp>
-#include <taut/impl/sparse/block_assembly.hpp>
-#include <taut/impl/sparse/multigrid.hpp>
+#include <taut/impl/core/compute/program/signature.hpp>
+#include <taut/impl/core/compute/record.hpp>
+#include <taut/impl/core/objective/element_hessian.hpp>
+#include <taut/impl/core/objective/mesh_levels.hpp>
+#include <taut/impl/core/objective/newton_plan.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
+#include <taut/impl/core/sparse/block_assembly.hpp>
+#include <taut/impl/core/sparse/multigrid.hpp>
 
 #include "commands.hpp"
 #include "shared/shared_options.hpp"
@@ -71,7 +71,7 @@ void build(queue& q, scalar_type real, idx side)
     impl::newton_plan<Element> plan(levels, 0, impl::lane_form::for_device(q.device()));
     impl::multigrid cycle(q, real, std::move(plan.cycle));
     const impl::block_assembly assemble(cycle.matrix(), plan.assembly);
-    impl::real_buffer hessians(q, real, impl::hessian_slots<Element::dimension>::count * plan.layout->cell_stride);
+    real_buffer hessians(q, real, impl::hessian_slots<Element::dimension>::count * plan.layout->cell_stride);
     hessians.fill(0);
     auto x = cycle.matrix().vector(), y = cycle.matrix().vector();
     assemble(hessians, cycle.matrix());
@@ -93,20 +93,20 @@ void build_named(queue& q)
     std::istringstream each(names);
     for (std::string name; each >> name;)
     {
-        std::vector<impl::argument> arguments;
+        std::vector<kernel::argument> arguments;
         for (const auto& p : impl::signature_of(source, name, scalar_type::f64))
         {
-            const impl::argument number = p.type == "int" ? impl::argument(idx(0)) : impl::argument(0.0);
-            arguments.push_back(p.is_memory ? impl::argument(nothing) : number.as(p.type));
+            const kernel::argument number = p.type == "int" ? kernel::argument(idx(0)) : impl::number_of(p.type, 0);
+            arguments.push_back(p.is_memory ? kernel::argument(nothing) : number);
         }
-        kernel(q, source, name, options)(impl::items_for(impl::kernel_form::run, 1), arguments);
+        kernel(q, source, name, options)(impl::items_for(kernel_form::run, 1), arguments);
     }
     q.finish();
 }
 
 exit_code run(const build_options& options)
 {
-    queue q(options.device.empty() ? find_device() : impl::find_device(options.device, {}, "--device "));
+    queue q(options.device.empty() ? find_device() : find_device(options.device, {}, "--device "));
     if (options.real.empty())
     {
         build_named(q);

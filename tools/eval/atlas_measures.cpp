@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
-#include <taut/impl/atlas/atlas_summary.hpp>
-#include <taut/impl/atlas/chart_mesh.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/atlas_summary.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/charts/bake/triangle_tiles.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
 
 #include "shared/assessment.hpp"
 
@@ -20,7 +22,34 @@ namespace taut::tools
 namespace
 {
 
-/// 1 - area of the union of triangles by the sum of their areas, sampled on a grid over their box.
+/// The columns first .. last - 1 of a row of samples.
+struct column_span
+{
+    int first, last;
+};
+
+/// The columns of row y that lie on the inner side of an edge of a triangle that runs counter-clockwise: those where a
+/// determinant is positive, which falls or rises along the row, in rounded numbers as well. An edge that two triangles
+/// share counts for one of them.
+column_span inside_of(const vec2& a, const vec2& b, int y, column_span within)
+{
+    const vec2 d = b - a;
+    const auto inside = [&](int x)
+    {
+        const double det = glm::determinant(mat2(d, vec2(x, y) - a));
+        return det > 0 || (det == 0 && (d.y < 0 || (d.y == 0 && d.x > 0)));
+    };
+    if (d.y == 0) return inside(within.first) ? within : column_span{within.first, within.first};
+    const double where = std::ceil(a.x + d.x * ((y - a.y) / d.y));
+    int x = static_cast<int>(std::clamp<double>(where, within.first, within.last));
+    const bool rises = d.y < 0;
+    while (x > within.first && inside(x - 1) == rises) --x;
+    while (x < within.last && inside(x) != rises) ++x;
+    return rises ? column_span{x, within.last} : column_span{within.first, x};
+}
+
+/// 1 - area of the union of triangles by the sum of their areas, sampled on a grid over their box. A sample is marked
+/// once, however many triangles lie on it.
 double overlap_area(std::span<const std::array<idx, 3>> cells, std::span<const vec2> uv)
 {
     constexpr int side = 2048;
@@ -33,8 +62,8 @@ double overlap_area(std::span<const std::array<idx, 3>> cells, std::span<const v
             high = glm::max(high, at(v));
         }
     const double unit = std::max(high.x - low.x, high.y - low.y) / side;
-    if (!(unit > 0)) return 0;
-    std::vector<std::uint8_t> covered(static_cast<std::size_t>(side) * side, 0);
+    if (!(unit > 0) || !std::isfinite(unit)) return 0;
+    impl::open_tiles open(side, side);
     std::size_t samples = 0, points = 0;
     for (const auto& t : cells)
     {
@@ -44,21 +73,17 @@ double overlap_area(std::span<const std::array<idx, 3>> cells, std::span<const v
         const vec2 least = glm::min(glm::min(p[0], p[1]), p[2]), most = glm::max(glm::max(p[0], p[1]), p[2]);
         const auto clipped = [](double x) { return std::clamp(static_cast<int>(x), 0, side - 1); };
         for (int y = clipped(std::ceil(least.y)); y <= clipped(most.y); ++y)
-            for (int x = clipped(std::ceil(least.x)); x <= clipped(most.x); ++x)
+        {
+            column_span row{clipped(std::ceil(least.x)), clipped(most.x) + 1};
+            for (std::size_t k = 0; k < 3 && row.first < row.last; ++k) row = inside_of(p[k], p[(k + 1) % 3], y, row);
+            if (row.first >= row.last) continue;
+            samples += static_cast<std::size_t>(row.last - row.first);
+            for (idx x = open.from(y, row.first); x < row.last; x = open.from(y, x))
             {
-                const vec2 q(x, y);
-                // An edge that two triangles share counts for one of them.
-                const auto inside = [&](const vec2& a, const vec2& b)
-                {
-                    const double d = glm::determinant(mat2(b - a, q - a));
-                    return d > 0 || (d == 0 && (b.y < a.y || (b.y == a.y && b.x > a.x)));
-                };
-                if (!inside(p[0], p[1]) || !inside(p[1], p[2]) || !inside(p[2], p[0])) continue;
-                auto& here = covered[static_cast<std::size_t>(y) * side + static_cast<std::size_t>(x)];
-                ++samples;
-                points += here == 0;
-                here = 1;
+                open.close(y, x);
+                ++points;
             }
+        }
     }
     return samples > 0 ? 1 - static_cast<double>(points) / static_cast<double>(samples) : 0;
 }
@@ -69,7 +94,7 @@ std::optional<atlas_measures> measure_atlas(const io::surface_file& file, const 
 {
     const auto& m = file.surface;
     const auto f = impl::facets(m);
-    constexpr impl::mesh_requirements required{
+    constexpr mesh_requirements required{
         .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
     if (m.cells().empty() || !check(m, f, required).empty()) return std::nullopt;
     const auto u = [](idx i) { return static_cast<std::size_t>(i); };

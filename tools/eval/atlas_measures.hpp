@@ -5,9 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/atlas/atlas_report.hpp>
-#include <taut/impl/io/cut_seams.hpp>
-#include <taut/impl/io/surface_file.hpp>
+#include <taut/atlas.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/text_table.hpp"
 

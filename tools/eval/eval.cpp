@@ -8,9 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <taut/impl/io/cut_seams.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/mesh/describe.hpp>
+#include <taut/impl/core/mesh/describe.hpp>
+#include <taut/surface_file.hpp>
 
 #include "commands.hpp"
 #include "eval/atlas_measures.hpp"
@@ -34,7 +33,7 @@ namespace
 
 struct eval_options
 {
-    std::string input, map, picture, cut; ///< map and what follows: of volumes
+    std::string input, map, picture, clip; ///< map and what follows: of volumes
     io::surface_format format{};
     bool json = false;
     int zone = 0; ///< of a SU2 file of several; 0: none
@@ -69,18 +68,20 @@ std::vector<idx> leave_out_unmapped(io::surface_file& file, std::vector<idx>& po
 exit_code evaluate(const eval_options& options)
 {
     const bool volume = names_volume(options.input) || extension(options.input) == ".prob";
+    if (volume && options.format != io::surface_format::automatic)
+        throw usage_error("--format is of OBJ, OFF, PLY and STL; leave it out for volumes");
     if (volume)
         return evaluate_volume({options.map.empty() ? options.input : options.map,
-                                options.map.empty() ? std::string() : options.input, options.picture, options.cut,
+                                options.map.empty() ? std::string() : options.input, options.picture, options.clip,
                                 options.json, options.zone});
     const auto refuse = [](const char* option, bool given)
     {
-        if (given) throw usage_error(std::string(option) + " is of volume files; leave it out");
+        if (given) throw usage_error(std::string(option) + " is for volume files; leave it out");
     };
     refuse("MAP", !options.map.empty());
     refuse("--picture", !options.picture.empty());
-    refuse("--cut", !options.cut.empty());
-    if (options.zone > 0) throw usage_error("--zone is of SU2 files; leave it out");
+    refuse("--clip", !options.clip.empty());
+    if (options.zone > 0) throw usage_error("--zone is for SU2 files; leave it out");
     auto file = io::read_surface_file(options.input, options.format);
     if (!file.texcoord_fault.empty())
         throw unsuitable_input(file.texcoord_fault + "; correct it, or let `taut unwrap` make others");
@@ -158,12 +159,12 @@ command add_eval(command_line& program)
         program.add_subcommand("eval", "Measure the map in a file: energies, flips, crossings, distortion");
     add_input(
         app, "IN", options->input, "the input",
-        "OBJ file with texture coordinates; seams are cut open; - is standard input. Or a volume (.mesh .msh .vtk "
+        "OBJ file with texture coordinates, cut open along seams; - is standard input. Or a volume (.mesh .msh .vtk "
         ".vtu .node .su2), or a problem (.prob)")
         .required();
     add_input(app, "MAP", options->map, "the map", "The deformed volume, with the vertices and cells of IN");
     add_format(app, options->format);
-    add_drawing(app, options->picture, options->cut, "Draw a volume or a planar mesh");
+    add_drawing(app, options->picture, options->clip, "Draw a volume or a planar mesh");
     add_zone(app, options->zone);
     app.add_flag("--json", options->json, "Print JSON");
     app.footer("exit codes: 0 measured, whatever was found; 2 usage; 3 unreadable input; 4 no texture coordinates");

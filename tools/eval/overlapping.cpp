@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <string>
 
-#include <taut/impl/exact/crossings.hpp>
-#include <taut/impl/exact/predicates.hpp>
-#include <taut/impl/packing/chart_overlaps.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/charts/packing/chart_overlaps.hpp>
+#include <taut/impl/core/exact/crossings.hpp>
+#include <taut/impl/core/exact/predicates.hpp>
 
 namespace taut::tools
 {

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 #include "shared/text_table.hpp"
 

@@ -4,15 +4,18 @@
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
 
 #include <taut/dist.hpp>
+#include <taut/impl/files/volume/formats.hpp>
 
 #include "mpi/case_folder.hpp"
 #include "mpi/piece_turns.hpp"
 #include "mpi/shape_source.hpp"
+#include "shared/companions.hpp"
 #include "shared/failure.hpp"
 #include "shared/writing.hpp"
 
@@ -86,22 +89,26 @@ public:
         }
     }
 
-    /// After the result is written: the file, and the pieces that it names.
+    /// After the result is written: the files that runs have written, those of one that was killed, too.
     void remove() const
     {
-        if (all_.rank() != 0 || options_.checkpoint.empty()) return;
+        if (options_.checkpoint.empty()) return;
+        std::vector<std::string> left;
+        if (is_in_pieces())
+            for (const auto& turn : piece_turns(options_.checkpoint).turns())
+                for (auto& file : source_.files_at(turn.string())) left.push_back(std::move(file));
+        if (all_.rank() != 0) return;
         std::error_code unknown;
         const std::filesystem::path path = options_.checkpoint;
         if (is_case())
+            for (const auto& folder : {named(), unfinished()}) listed_folder(folder).remove();
+        else if (is_in_pieces())
         {
-            for (const auto& folder : {path, unfinished()}) std::filesystem::remove_all(folder, unknown);
-            return;
+            piece_turns(path).remove();
+            remove_files(left);
         }
-        if (is_in_pieces()) return piece_turns(path).remove();
-        std::filesystem::remove(path, unknown);
-        if (io::impl::small_extension(options_.shape.input) == ".node") // TetGen's further files
-            for (const char* extension : {".node", ".ele", ".face"})
-                std::filesystem::remove(std::filesystem::path(path).replace_extension(extension), unknown);
+        else
+            for (const auto& file : written_as(path, options_.shape.input)) std::filesystem::remove(file, unknown);
     }
 
 private:
@@ -138,17 +145,24 @@ private:
         };
         if (is_case())
         {
-            const auto made = unfinished();
-            by_first([&] { remove_folder(made); }); // of a run that was killed
-            source_.write(made.string(), x);
-            by_first([&] { replace_folder(made, named()); });
+            const listed_folder made(unfinished());
+            auto files = source_.files_at(unfinished().string());
+            for (auto& file : files) file = std::filesystem::path(file).lexically_relative(unfinished()).string();
+            by_first(
+                [&]
+                {
+                    made.remove(); // of a run that was killed
+                    made.make(files);
+                });
+            source_.write(unfinished().string(), x);
+            by_first([&] { made.rename_to(named()); });
         }
         else if (is_in_pieces())
         {
             const piece_turns turns(options_.checkpoint);
-            std::string made;
-            by_first([&] { made = turns.next().string(); });
-            made = all_.shared(made);
+            const std::string made = all_.shared(turns.next().string());
+            const auto left = source_.files_at(made);
+            by_first([&] { remove_files(left); }); // of a run that was killed
             source_.write(made, x);
             by_first([&] { turns.replace(made); });
         }

@@ -15,10 +15,9 @@
 
 #include <mpi.h>
 
-#include <taut/impl/compute/errors.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/mesh/mesh_error.hpp>
-#include <taut/impl/processes/communicator.hpp>
+#include <taut/device.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/dist/processes/communicator.hpp>
 #include <taut/version.hpp>
 
 #include "commands.hpp"
@@ -30,6 +29,7 @@
 #include "shared/interrupt.hpp"
 #include "shared/outputs.hpp"
 #include "shared/printable.hpp"
+#include "shared/writing.hpp"
 
 namespace taut::tools::mpi
 {
@@ -192,6 +192,17 @@ ending described(const communicator& all, const subcommand& app, const tools::co
         });
 }
 
+/// Of process 0 alone.
+exit_code printed(const communicator& all, const std::string& text)
+{
+    all.together(
+        [&]
+        {
+            if (all.rank() == 0) write_standard_output(text);
+        });
+    return exit_code::valid;
+}
+
 ending run_program(const communicator& all, int argc, char** argv, std::chrono::steady_clock::time_point launch)
 {
     command_line program(
@@ -213,10 +224,13 @@ ending run_program(const communicator& all, int argc, char** argv, std::chrono::
     const auto complete = add_completion(program), man = add_man(program);
     try
     {
-        if (const auto text = program.parse(argc, argv))
+        const auto note = [&](const std::string& text)
         {
-            if (all.rank() == 0) std::cout << *text << std::flush;
-            return {};
+            if (all.rank() == 0) std::cerr << "taut-mpi: note: " << printable(text) << std::endl;
+        };
+        if (const auto text = program.parse(argc, argv, note))
+        {
+            return ended([&] { return printed(all, *text); });
         }
     }
     catch (const argument_error& e)

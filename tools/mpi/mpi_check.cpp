@@ -7,11 +7,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/dist/check.hpp>
-#include <taut/impl/dist_io/deal.hpp>
-#include <taut/impl/dist_io/open_volume.hpp>
-#include <taut/impl/dist_io/piece_shapes.hpp>
-#include <taut/impl/io/read_volume.hpp>
+#include <taut/dist.hpp>
+#include <taut/impl/dist/ranges/deal.hpp>
+#include <taut/impl/dist/ranges/open_volume.hpp>
+#include <taut/impl/dist/ranges/piece_shapes.hpp>
+#include <taut/volume_file.hpp>
 
 #include "mpi/mpi_options.hpp"
 #include "shared/command_line.hpp"
@@ -87,7 +87,7 @@ subject read(const dist::impl::communicator& all, const mpi_check_options& o)
     try
     {
         const bool pieces = dist::impl::names_pieces(all, o.input);
-        if (o.zone != 0 && pieces) throw usage_error("--zone is of SU2 files; leave it out");
+        if (o.zone != 0 && pieces) throw usage_error("--zone is for SU2 files; leave it out");
         if (o.zone != 0) throw dist::impl::unsuited("a zone is asked for");
         s.volume = dist::impl::open_volume(all, o.input);
         if (s.volume->partitioned) return s;

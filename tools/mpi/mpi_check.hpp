@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <taut/impl/processes/communicator.hpp>
+#include <taut/impl/dist/processes/communicator.hpp>
 
 #include "shared/exit_codes.hpp"
 #include "shared/options.hpp"

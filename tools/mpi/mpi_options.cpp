@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "mpi/mpi_options.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <system_error>
 
-#include <taut/impl/io/volume/formats.hpp>
-#include <taut/impl/io/volume_file.hpp>
+#include <taut/impl/files/volume/formats.hpp>
+#include <taut/volume_file.hpp>
 
 #include "shared/choices.hpp"
 #include "shared/command_line.hpp"
@@ -28,22 +29,23 @@ void declare_solver(const subcommand& app, mpi_options& o)
                                      "Preconditioner of the Newton systems");
     add_choice<dist::partition>(app, "--partition", o.solver.partition,
                                 {{"curve", dist::partition::curve}, {"ptscotch", dist::partition::ptscotch}},
-                                "Owners of vertices: ranges of a curve, or parts by PTScotch, with less between them");
+                                "Owners of vertices: ranges of a curve, or parts by PTScotch, with less communication");
     app.add_option("--petsc", o.solver.options,
-                   "Options of PETSc for the preconditioner, in one argument, as \"-pc_type gamg\"")
+                   "PETSc options for the preconditioner, in one argument, such as \"-pc_type gamg\"")
         .type_name("OPTIONS");
 }
 
 void declare_checkpoint(const subcommand& app, mpi_options& o)
 {
-    add_output(app, "--checkpoint", o.checkpoint, {.made_of = "MESH", .may_be_folder = true},
-               "Write the shape so far to this mesh, a folder for a case of OpenFOAM, from time to time; where it is "
-               "there already, begin with it. Removed once the result is written")
+    add_output(
+        app, "--checkpoint", o.checkpoint, {.made_of = "MESH", .may_be_folder = true},
+        "Write the current shape to this mesh, a folder for an OpenFOAM case, from time to time; continue from it "
+        "if it exists. Removed once the result is written")
         .type_name("FILE");
-    app.add_option("--checkpoint-interval", o.checkpoint_interval, "Seconds between two of these")
+    app.add_option("--checkpoint-interval", o.checkpoint_interval, "Seconds between checkpoints")
         .type_name("S")
         .capture_default_str()
-        .check(number_that([](double x) { return x >= 1; }, "must be at least 1"))
+        .check(number_that([](double x) { return x >= 1 && std::isfinite(x); }, "must be at least 1"))
         .needs("--checkpoint");
 }
 
@@ -58,9 +60,9 @@ void say(const subcommand& app, const std::string& mesh)
     app.describe("MESH", mesh);
     app.use_of("--output").may_be_folder = true;
     app.describe("--output",
-                 "Mesh to write, in the format of the input: the same file, or pieces, with other coordinates");
+                 "Mesh to write, in the format of the input: the same file, or pieces, with new coordinates");
     app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
-               "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written;\n"
+               "  6 not found; 7 proved infeasible; 8 time limit, with the best mesh written;\n"
                "  9 device, MPI or PETSc failed; 130 interrupted, 143 terminated");
 }
 
@@ -74,8 +76,8 @@ void require_names(const mpi_options& o, const io::volume_file& input)
     std::error_code unknown;
     const bool known = io::impl::volume_format_of_name(o.checkpoint) != io::volume_format::automatic;
     if (!known && !std::filesystem::is_directory(o.checkpoint, unknown)) // of which more is said when it is read
-        throw usage_error("--checkpoint " + o.checkpoint + ": is read again by its name; give it the extension of " +
-                          input.format + " files");
+        throw usage_error("--checkpoint " + o.checkpoint +
+                          ": the format follows from the name; give it the extension of " + input.format + " files");
 }
 
 std::string count_kinds(const std::array<std::int64_t, 8>& kinds)
@@ -93,7 +95,7 @@ std::string count_kinds(const std::array<std::int64_t, 8>& kinds)
 void declare_deform(const subcommand& app, mpi_options& o)
 {
     tools::declare_deform(app, o.shape);
-    leave_out(app, {"--picture", "--cut", "--refine", "--refined-map", "--thickness"});
+    leave_out(app, {"--picture", "--clip", "--refine", "--refined-map", "--thickness"});
     declare_solver(app, o);
     declare_checkpoint(app, o);
     say(app, meshes);
@@ -102,7 +104,7 @@ void declare_deform(const subcommand& app, mpi_options& o)
 void declare_smooth(const subcommand& app, mpi_options& o)
 {
     tools::declare_smooth(app, o.shape);
-    leave_out(app, {"--picture", "--cut"});
+    leave_out(app, {"--picture", "--clip"});
     declare_solver(app, o);
     declare_checkpoint(app, o);
     say(app, meshes);

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include <taut/impl/dist/solver_params.hpp>
+#include <taut/dist.hpp>
 
 #include "shared/options.hpp"
 #include "volume/shape_options.hpp"
@@ -18,7 +18,7 @@ namespace taut::tools::mpi
 struct mpi_options
 {
     shape_options shape;
-    dist::impl::solver_params solver;
+    dist::solver_params solver;
     std::string checkpoint;           ///< a mesh file for the shape so far; empty: none
     double checkpoint_interval = 600; ///< seconds
 };

@@ -2,6 +2,7 @@
 #include "mpi/mpi_shape.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <iostream>
@@ -12,8 +13,11 @@
 #include <vector>
 
 #include <taut/dist.hpp>
-#include <taut/impl/dist_io/deal.hpp>
+#include <taut/impl/dist/ranges/deal.hpp>
+#include <taut/impl/dist/shape/smooth.hpp>
+#include <taut/impl/files/file/file_target.hpp>
 
+#include "mpi/case_folder.hpp"
 #include "mpi/checkpoint.hpp"
 #include "mpi/mpi_report.hpp"
 #include "mpi/processes.hpp"
@@ -258,6 +262,9 @@ private:
             throw no_valid_map(found.reason.empty() ? "nothing was written" : found.reason);
         }
         found.notes.insert(found.notes.end(), source_->notes.begin(), source_->notes.end());
+        if (!options_.checkpoint.empty() && std::isfinite(shape_.time_limit) &&
+            shape_.time_limit <= options_.checkpoint_interval)
+            found.notes.push_back("--checkpoint: none was written, as --time-limit is no longer than its interval");
         if (!shape_.smoothing && report_.pins + report_.springs == 0) found.notes.push_back(nothing_held);
         if (found.on_interfaces > 0)
             found.notes.push_back(kept_interfaces_note(static_cast<std::uint64_t>(found.on_interfaces)));
@@ -309,6 +316,10 @@ void require_kind(const shape_options& o)
     if (fs::is_directory(o.input, unknown))
     {
         if (there) throw usage_error("-o " + o.output + ": is there already; name a folder that is not, or remove it");
+        for (const auto* name : {&o.output, &o.stats})
+            if (!name->empty() && io::impl::open_file_number(*name) < 0 && lies_in(*name, o.input))
+                throw usage_error(*name + ": lies in the input " + o.input +
+                                  ", as a part of which it would be taken; name a place outside of it");
     }
     else if (folder || !path.has_filename())
         throw usage_error("-o " + o.output + ": is a folder, and the mesh is a file; name a file");

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include <taut/impl/processes/communicator.hpp>
+#include <taut/impl/dist/processes/communicator.hpp>
 
 #include "mpi/mpi_options.hpp"
 #include "shared/exit_codes.hpp"

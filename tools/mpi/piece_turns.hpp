@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -17,21 +18,26 @@ class piece_turns
 public:
     explicit piece_turns(std::filesystem::path pvtu) : path_(std::move(pvtu)) {}
 
-    /// The .pvtu to write next, to a name of its own; what a run that was killed has left of it is removed.
+    /// Both names that it may be written to.
+    std::array<std::filesystem::path, 2> turns() const;
+
+    /// That to write next.
     std::filesystem::path next() const;
 
     /// Gives that file the name; the pieces that had been named before are removed. Throws io_error.
     void replace(const std::filesystem::path& made) const;
 
-    /// Removes the file, and pieces of whatever turn.
+    /// Removes the file and its pieces.
     void remove() const;
 
 private:
-    std::filesystem::path turn(int k) const;
-    /// The pieces that it names now, in folders of its own.
+    /// The pieces that it names now, in folders of its turns: others are not of its making.
     std::vector<std::filesystem::path> pieces() const;
 
     std::filesystem::path path_;
 };
+
+/// Removes files, as a run that was killed may have left them, and their folders where nothing is left in them.
+void remove_files(const std::vector<std::string>& files);
 
 } // namespace taut::tools::mpi

@@ -5,13 +5,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
-#include <system_error>
 #include <thread>
 
 #include <dlfcn.h>
 #include <sched.h>
 
-#include <taut/impl/dist/own_queue.hpp>
+#include <taut/impl/core/compute/program/private_folder.hpp>
+#include <taut/impl/dist/shape/own_queue.hpp>
+
+#include "shared/own_kernels.hpp"
 
 namespace taut::tools::mpi
 {
@@ -57,13 +59,12 @@ void share_machine(const dist::impl::communicator& all)
     {
         fs::path base = variable("XDG_CACHE_HOME");
         if (base.empty() && !variable("HOME").empty()) base = fs::path(variable("HOME")) / ".cache";
-        if (base.empty()) return;
+        if (base.empty()) return; // own_queue() refuses what PoCL takes then
         caches = base / "taut-mpi";
     }
     caches /= "process-" + std::to_string(here.rank);
-    std::error_code failed;
-    fs::create_directories(caches, failed);
-    if (!failed) ::setenv("POCL_CACHE_DIR", caches.c_str(), 1);
+    impl::fault_of_made_folder(caches); // of which own_queue() tells, if it is PoCL that is used
+    ::setenv("POCL_CACHE_DIR", caches.c_str(), 1);
 }
 
 queue own_queue(const dist::impl::communicator& all, const std::string& device)
@@ -72,7 +73,10 @@ queue own_queue(const dist::impl::communicator& all, const std::string& device)
     std::optional<queue> q;
     all.together(
         [&]
-        { q = device.empty() ? dist::impl::open_own_queue(here) : queue(impl::find_device(device, {}, "--device ")); });
+        {
+            q = device.empty() ? dist::impl::open_own_queue(here) : queue(find_device(device, {}, "--device "));
+            require_own_kernels(q->device());
+        });
     return *q;
 }
 

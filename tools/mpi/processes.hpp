@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include <taut/impl/compute/queue.hpp>
-#include <taut/impl/processes/communicator.hpp>
+#include <taut/impl/dist/processes/communicator.hpp>
+#include <taut/queue.hpp>
 
 namespace taut::tools::mpi
 {

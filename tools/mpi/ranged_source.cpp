@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <utility>
 
-#include <taut/impl/core/single.hpp>
-#include <taut/impl/dist_io/open_volume.hpp>
-#include <taut/impl/dist_io/piece_shapes.hpp>
-#include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/core/core/single.hpp>
+#include <taut/impl/core/exact/predicates.hpp>
+#include <taut/impl/dist/ranges/open_volume.hpp>
+#include <taut/impl/dist/ranges/piece_shapes.hpp>
+#include <taut/impl/files/file/atomic_file_bodies.hpp>
+#include <taut/impl/files/volume/formats.hpp>
 
 #include "mpi/case_folder.hpp"
 #include "mpi/ranged_targets.hpp"
@@ -17,6 +19,7 @@
 #include "shared/failure.hpp"
 #include "shared/text_table.hpp"
 #include "shared/writing.hpp"
+#include "volume/group_targets.hpp"
 
 namespace taut::tools::mpi
 {
@@ -46,16 +49,22 @@ void require_case(const mpi_options& o)
     const std::string& path = o.checkpoint;
     const auto refuse = [&](const std::string& why) { throw usage_error("--checkpoint " + path + ": " + why); };
     for (const auto* other : {&o.shape.input, &o.shape.output})
+    {
         if (same_folder(path, *other)) refuse("is also the input or the output; name another folder");
+        if (lies_in(*other, path) || lies_in(path, *other))
+            refuse("and " + *other + " are in each other; name another folder");
+    }
     std::error_code unknown;
-    if (std::filesystem::is_directory(path, unknown) && !holds_meshes_alone(path))
-        refuse("is there already and has more in it than meshes of OpenFOAM; name another folder");
+    if (!std::filesystem::is_directory(path, unknown)) return; // of a file more is said when it is read
+    if (const auto found = listed_folder(path).stranger(); !found.empty())
+        refuse("is there already, and " + found + " is of no checkpoint; name another folder");
 }
 
 void require_place(const ranged_volume& volume, const mpi_options& o)
 {
     const auto& shape = o.shape;
     check(shape);
+    require_half_turns(shape.moves);
     if (!volume.partitioned)
     {
         require_names(o, head_of(volume, shape.input));
@@ -138,6 +147,13 @@ public:
         ranged_volume::outputs files;
         writing([&] { files = volume_->write(path, in_file(x)); });
         writing([&] { volume_->commit(files); });
+    }
+
+    std::vector<std::string> files_at(const std::string& path) const override
+    {
+        std::vector<std::string> files;
+        for (const auto& file : volume_->files_at(path)) files.push_back(file.string());
+        return all_.gathered(files);
     }
 
     void finish(const points& given, mpi_report& report, const report_writer& write_report) override

@@ -9,10 +9,11 @@
 #include <string_view>
 #include <utility>
 
-#include <taut/impl/dist_io/line_layout.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/io/volume_file.hpp>
-#include <taut/impl/processes/fixed_sum.hpp>
+#include <taut/impl/dist/processes/fixed_sum.hpp>
+#include <taut/impl/dist/ranges/line_layout.hpp>
+#include <taut/impl/files/surface/pins.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/volume_file.hpp>
 
 #include "shared/failure.hpp"
 #include "volume/group_targets.hpp"
@@ -72,8 +73,9 @@ std::vector<io::pin<3>> pins_of(const communicator& all, const std::string& path
 class collector
 {
 public:
-    explicit collector(const ranged_volume& volume) : volume_(volume), all_(volume.processes())
+    collector(const ranged_volume& volume, const std::string& path) : volume_(volume), all_(volume.processes())
     {
+        names_.path = path;
         for (const auto& g : volume.groups) names_.groups.push_back({g.name, g.dimension, {}});
         constexpr double digits = 1e-10;
         vec3 low(std::numeric_limits<double>::infinity()), high = -low;
@@ -123,9 +125,10 @@ public:
             });
         rounded = all_.sum(rounded);
         if (rounded > 0)
-            notes.push_back(std::to_string(rounded) +
-                            " vertices in two groups, whose places differ by rounding; that of the first counts, of "
-                            "--fix before --move");
+            notes.push_back(
+                std::to_string(rounded) +
+                " vertices in two groups with positions that differ by rounding; the first one counts, --fix before "
+                "--move");
         return kept;
     }
 
@@ -218,7 +221,7 @@ private:
 ranged_targets targets_of(const ranged_volume& volume, const shape_options& options)
 {
     const auto& all = volume.processes();
-    collector wanted(volume);
+    collector wanted(volume, options.input);
     for (const auto& name : options.fixed) wanted.fix(name);
     for (const auto& move : options.moves) wanted.move(move);
     ranged_targets found;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/dist/constraints.hpp>
-#include <taut/impl/dist_io/ranged_volume.hpp>
+#include <taut/dist.hpp>
+#include <taut/impl/dist/ranges/ranged_volume.hpp>
 
 #include "volume/shape_options.hpp"
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include <taut/dist.hpp>
-#include <taut/impl/dist_io/ranged_volume.hpp>
-#include <taut/impl/io/write_files.hpp>
-#include <taut/impl/processes/communicator.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/dist/processes/communicator.hpp>
+#include <taut/impl/dist/ranges/ranged_volume.hpp>
 
 #include "mpi/mpi_options.hpp"
 #include "mpi/mpi_report.hpp"
@@ -57,6 +57,9 @@ public:
     /// A mesh with the shape so far. Throws unsuitable_input where it is another one, io_error.
     virtual points read(const std::string& path) const = 0;
     virtual void write(const std::string& path, const points& x) const = 0;
+
+    /// The files that write() makes, those of all processes.
+    virtual std::vector<std::string> files_at(const std::string& path) const { return {path}; }
 
     /// Of process 0, once a report is complete: writes it, with further files that appear with it.
     using report_writer = std::function<void(std::vector<io::file_to_write>)>;

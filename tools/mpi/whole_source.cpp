@@ -6,12 +6,11 @@
 #include <optional>
 #include <utility>
 
-#include <taut/impl/dist_io/deal.hpp>
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/impl/dist/ranges/deal.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/volume_file.hpp>
 
 #include "mpi/shape_source.hpp"
 #include "shared/failure.hpp"
@@ -193,8 +192,8 @@ private:
         const auto& mesh = input_->simplices();
         held_ = taut::constraints<Element>(mesh);
         held_by_file held(file_);
-        for (const auto& [v, x] : targets.all()) held_.pin(v, held(v, vec<D>(x)));
-        if (!shape_.pins.empty()) held_.add(held(io::read_pins<D>(shape_.pins, mesh.vertex_count())));
+        targets.pin(held_, held);
+        if (!shape_.pins.empty()) held_.add(held(input_->read_pins(shape_.pins)));
         if (auto note = held.note(); !note.empty()) told.push_back(std::move(note));
         report.pins = held_.pins().size();
         for (const auto& [v, pin] : held_.pins())
@@ -218,6 +217,7 @@ io::volume_file read_whole(const mpi_options& o)
 {
     const auto& shape = o.shape;
     check(shape);
+    require_half_turns(shape.moves);
     if (names_surface(shape.input))
         throw unsuitable_input(shape.input + ": a surface in space is small enough for one process; use `taut deform`");
     auto file = read_volume_at_rest(shape.input, shape.rest, shape.zone);

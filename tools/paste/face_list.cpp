@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <system_error>
 
-#include <taut/impl/io/read_file.hpp>
+#include <taut/impl/files/file/read_file.hpp>
 
 namespace taut::tools
 {

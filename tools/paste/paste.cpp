@@ -20,11 +20,11 @@
 #include <nlohmann/json.hpp>
 
 #include <picture/render_picture.hpp>
-#include <taut/impl/edit/surface/surface_tree.hpp>
-#include <taut/impl/edit/write_feature_map.hpp>
-#include <taut/impl/edit/write_paste.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_files.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/charts/paste/surface/surface_tree.hpp>
+#include <taut/impl/charts/paste/write_feature_map.hpp>
+#include <taut/impl/charts/paste/write_paste.hpp>
+#include <taut/surface_file.hpp>
 
 #include "commands.hpp"
 #include "paste/face_list.hpp"
@@ -62,7 +62,8 @@ void check(const paste_options& options)
     if (options.region.empty() == (options.at < 0 || !(options.radius > 0)))
         throw usage_error("define the feature: --at V --radius R, or --region FILE, and not both");
     if (options.texels && options.map.empty() && options.triangles == 0)
-        throw usage_error("--texels is the size of a map, and none is made; add --map or --triangles, or leave it out");
+        throw usage_error(
+            "--resolution is the size of a map, and none is made; add --map or --triangles, or leave it out");
 }
 
 /// One run of `taut paste`.
@@ -156,7 +157,7 @@ private:
         if (!fewer && options_.triangles >= near * made) return;
         tessellation_note_ = "--triangles " + std::to_string(options_.triangles) + ": " +
                              count(static_cast<std::uint64_t>(made), "triangle", "triangles") + ", as " +
-                             (fewer ? "more show nothing of the map; name more --texels"
+                             (fewer ? "the map has no more detail; give more --resolution"
                                     : "the rim and the shape within need that many");
     }
 
@@ -376,7 +377,7 @@ command add_paste(command_line& program, std::chrono::steady_clock::time_point l
     const auto options = std::make_shared<paste_options>();
     const auto app = program.add_subcommand("paste", "Cut a feature out of one surface and paste it on another");
     const auto positive = number_that([](double x) { return x > 0 && std::isfinite(x); }, "is not positive");
-    add_input(app, "--source", options->source, "the source", "Surface that has the feature: OBJ, OFF, PLY or STL")
+    add_input(app, "--source", options->source, "the source", "Surface with the feature: OBJ, OFF, PLY or STL")
         .required();
     app.add_option("--at", options->at, "Vertex of the source at the centre of the feature, from 0")
         .type_name("V")
@@ -395,7 +396,8 @@ command add_paste(command_line& program, std::chrono::steady_clock::time_point l
     app.add_option("--rotate", options->degrees, "Rotate the feature about the normal of the target, counter-clockwise")
         .type_name("DEGREES")
         .check(number_that([](double x) { return std::isfinite(x); }, "is no angle"));
-    app.add_option("--scale", options->pose.scale, "Scale of the feature: lengths in the result by those in the source")
+    app.add_option("--scale", options->pose.scale,
+                   "Scale of the feature: lengths in the result divided by lengths in the source")
         .type_name("S")
         .check(positive);
     app.add_option("--softness", options->pose.softness,
@@ -413,21 +415,23 @@ command add_paste(command_line& program, std::chrono::steady_clock::time_point l
         .type_name("OUT.obj");
     app.add_option(
            "--triangles", options->triangles,
-           "Remesh the feature from its map, with about this many triangles, fewer where more show nothing of the map")
+           "Remesh the feature from its map, with about this many triangles, or fewer if the map has no more detail")
         .type_name("N")
         .check_range(1, 100'000'000);
     add_output(app, "--map", options->map, {.extensions = {".exr", ".png"}},
                "Write the feature's map of positions: .exr floats, .png colours");
-    app.add_option("--texels", options->texels, "Texels along the longer side of the map")
+    app.add_option("--resolution", options->texels, "Texels along the longer side of the map")
         .type_name("8..8192")
         .check_range(8, 8192);
+    app.rename("--texels", "--resolution");
     add_stats(app, options->stats);
     add_output(app, "--picture", options->picture, {.extensions = {".png"}}, "Draw source, target and result");
     add_output(app, "--render", options->render, {.extensions = {".png"}},
-               "Draw the result from both sides, the feature with a checkerboard");
+               "Draw the result from both sides, with a checkerboard on the feature");
     add_time_limit(app, options->time_limit, "Give up after S seconds");
     add_device(app, options->device);
-    app.add_flag("-q,--quiet", options->quiet, "Print errors only");
+    app.add_flag("--quiet", options->quiet, "Print errors only");
+    app.rename("-q", "--quiet");
     app.footer("exit codes: 0 written; 2 usage; 3 unreadable input; 4 unsuitable input: no disk, or no place for it;\n"
                "  5 no device; 6 out of time; 9 device failure; 130 interrupted, 143 terminated");
     return [options, launch](const outputs& files) { return paste_run(*options, files, launch)(); };

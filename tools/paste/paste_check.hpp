@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/edit/paste.hpp>
+#include <taut/paste.hpp>
 
 #include "shared/failure.hpp"
 #include "shared/text_table.hpp"
@@ -39,9 +39,9 @@ inline std::vector<std::string> notes_of(const impl::seam_quality& quality,
         notes.push_back(count(static_cast<std::uint64_t>(quality.folded), "edge", "edges") +
                         " of gap and feature where the surface turns back by more than 150 degrees");
     if (!meeting.empty())
-        notes.push_back(count(meeting.size(), "pair of triangles meets", "pairs of triangles meet") + ", as of " +
-                        std::to_string(meeting[0][0]) + " and " + std::to_string(meeting[0][1]) +
-                        ", which did not before: another pose, scale or softness may help");
+        notes.push_back(count(meeting.size(), "new pair of triangles intersects", "new pairs of triangles intersect") +
+                        ", such as " + std::to_string(meeting[0][0]) + " and " + std::to_string(meeting[0][1]) +
+                        "; try another pose, scale or softness");
     return notes;
 }
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 namespace taut::io
 {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 /// Colours of pictures: 8-bit sRGB outside, linear light for shading, OKLab where "equally different to the eye"
 /// counts.

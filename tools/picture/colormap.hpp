@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include <picture/color.hpp>
-#include <taut/impl/core/error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::io
 {

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/core/error.hpp>
-#include <taut/impl/core/types.hpp>
+#include <taut/errors.hpp>
+#include <taut/types.hpp>
 
 /// Survey of the faces of a map for pictures: drawable and flipped ones, distribution of distortions.
 namespace taut::io

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <picture/palette.hpp>
-#include <taut/impl/core/error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::io
 {

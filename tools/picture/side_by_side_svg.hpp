@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-#include <taut/impl/core/error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::io
 {

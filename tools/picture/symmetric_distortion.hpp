@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 namespace taut::io
 {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 namespace taut::report
 {

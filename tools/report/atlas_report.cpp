@@ -7,8 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/core/error.hpp>
-#include <taut/impl/io/coding/base64.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/volume/coding/base64.hpp>
 
 #include "report/atlas_page.hpp"
 #include "report/chart_table.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <taut/impl/core/error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::report
 {

@@ -11,8 +11,8 @@
 #include <tuple>
 #include <utility>
 
-#include <taut/impl/core/counting_sort.hpp>
-#include <taut/impl/core/disjoint_sets.hpp>
+#include <taut/impl/core/core/counting_sort.hpp>
+#include <taut/impl/core/core/disjoint_sets.hpp>
 
 namespace taut::report
 {

@@ -19,6 +19,7 @@ public:
     using CLI::App::App;
 
     std::map<const CLI::Option*, file_use> files;
+    std::map<const CLI::App*, std::map<std::string, std::string>> renamed; ///< options by their former names
 };
 
 /// Those that a command is one of.

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/core/exact/crossings.hpp>
+#include <taut/impl/core/measure/distortion.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
 
 namespace taut::tools
 {
@@ -41,7 +44,7 @@ void look_at_boundary(assessment& a, const mesh<triangle>& surface, std::span<co
     a.crossings = impl::count_boundary_crossings(loops, uv);
 }
 
-nlohmann::ordered_json to_json(const impl::spread& s)
+nlohmann::ordered_json to_json(const spread& s)
 {
     return {{"min", finite(s.min)}, {"max", finite(s.max)}, {"rms", finite(s.rms)}};
 }
@@ -183,7 +186,7 @@ void print(std::ostream& out, const quality& q, int dimension)
 
     text_table spreads;
     spreads.add({"ratio", "min", "max", "rms - 1"});
-    const auto row = [&](const char* name, const impl::spread& s) {
+    const auto row = [&](const char* name, const spread& s) {
         spreads.add({name, number(s.min), number(s.max), number(s.rms)});
     };
     row("stretch L2", q.stretch_l2);

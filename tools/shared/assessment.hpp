@@ -10,9 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/exact/convex_polygons.hpp>
-#include <taut/impl/exact/crossings.hpp>
-#include <taut/impl/measure/quality.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/exact/convex_polygons.hpp>
+#include <taut/impl/core/exact/crossings.hpp>
+#include <taut/quality.hpp>
 
 #include "shared/text_table.hpp"
 

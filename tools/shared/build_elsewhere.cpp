@@ -14,12 +14,11 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <taut/impl/compute/quirks.hpp>
-#include <taut/impl/core/private_folder.hpp>
-#include <taut/impl/sparse/block_matrix.hpp>
+#include <taut/impl/core/compute/quirks.hpp>
+#include <taut/impl/core/sparse/block_matrix.hpp>
 
 #include "shared/child.hpp"
-#include "shared/failure.hpp"
+#include "shared/own_kernels.hpp"
 
 namespace taut::tools
 {
@@ -38,15 +37,6 @@ std::string variable(const char* name)
     return value ? value : "";
 }
 
-/// Folder of PoCL's kernel cache.
-fs::path kernels_of_pocl()
-{
-    if (const auto named = variable("POCL_CACHE_DIR"); !named.empty()) return named;
-    if (const auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return fs::path(caches) / "pocl" / "kcache";
-    if (const auto home = variable("HOME"); !home.empty()) return fs::path(home) / ".cache" / "pocl" / "kcache";
-    return "/tmp/pocl";
-}
-
 /// Input of `taut build-kernels`.
 struct order
 {
@@ -59,7 +49,8 @@ order order_of(const std::string& options, const taut::device& device)
 {
     for (const int dimension : {2, 3})
         for (const auto real : {scalar_type::f32, scalar_type::f64})
-            if (options == impl::block_options(real, dimension, dimension + 1, impl::lane_form::for_device(device)))
+            if (options ==
+                impl::block_program(real, dimension, dimension + 1, impl::lane_form::for_device(device)).options())
                 return {{"build-kernels", std::to_string(dimension), std::string(impl::spelling(real))}, {}};
     return {};
 }
@@ -97,17 +88,7 @@ struct work
 
 } // namespace
 
-void require_own_kernels(const taut::device& device)
-{
-    const auto folder = kernels_of_pocl();
-    std::error_code failure;
-    if (!impl::quirks::is_pocl(device) || !fs::is_directory(folder, failure)) return;
-    if (const auto fault = impl::fault_of_folder(fs::canonical(folder, failure), 0002); !fault.empty())
-        throw usage_error(folder.string() + ", where PoCL keeps compiled kernels: " + fault +
-                          "; name a folder of your own with POCL_CACHE_DIR");
-}
-
-impl::program_builder build_elsewhere(const taut::device& device, const std::string& wish)
+queue_options::builder build_elsewhere(const taut::device& device, const std::string& wish)
 {
     const auto folder = kernels_of_pocl();
     const bool kept = variable("POCL_KERNEL_CACHE") != "0" && ::access(folder.c_str(), W_OK) == 0;
@@ -116,7 +97,7 @@ impl::program_builder build_elsewhere(const taut::device& device, const std::str
     if (!useful || !kept) return {};
     const auto latest = std::make_shared<std::shared_ptr<work>>();
     return [=](const std::string& source, const std::string& options,
-               const std::vector<std::string>& kernels) -> impl::build_under_way
+               const std::vector<std::string>& kernels) -> queue_options::wait_for_build
     {
         auto order = kernels.empty() ? order_of(options, device) : order_of(source, options, kernels);
         const auto mark =

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <taut/impl/compute/queue.hpp>
+#include <taut/queue.hpp>
 
 namespace taut::tools
 {
@@ -14,10 +14,6 @@ namespace taut::tools
 /// Which programs the driver's cache holds, files beside its kernels say. What they say wrongly costs time alone, and
 /// so does a process that fails or takes too long: what it has not built, this one builds. Neither writes a program
 /// or a kernel that the other one is building, as PoCL's cache is not safe between processes.
-impl::program_builder build_elsewhere(const taut::device& device, const std::string& wish);
-
-/// Throws usage_error if the compiled kernels that the device's driver would load may be somebody else's: they run as
-/// this user.
-void require_own_kernels(const taut::device& device);
+queue_options::builder build_elsewhere(const taut::device& device, const std::string& wish);
 
 } // namespace taut::tools

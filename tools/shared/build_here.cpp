@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "shared/build_elsewhere.hpp"
+#include "shared/own_kernels.hpp"
 
 namespace taut::tools
 {
 
 /// None: without child processes this one builds its kernels.
-impl::program_builder build_elsewhere(const taut::device&, const std::string&)
+queue_options::builder build_elsewhere(const taut::device&, const std::string&)
 {
     return {};
 }

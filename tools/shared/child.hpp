@@ -13,7 +13,7 @@
 #include <poll.h>
 #include <sys/types.h>
 
-#include <taut/impl/io/atomic_file.hpp>
+#include <taut/files.hpp>
 
 namespace taut::tools
 {

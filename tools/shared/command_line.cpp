@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/command_line.hpp"
 
+#include <algorithm>
 #include <iostream>
 #include <sstream>
 #include <utility>
@@ -25,6 +26,26 @@ std::filesystem::path source_of(const CLI::App& command, const CLI::Option& opti
     return one_each ? made_of->results()[k] : std::string();
 }
 
+/// Words of the program, options by their present names; `changes` gets what was changed.
+std::vector<std::string> with_present_names(const arguments& all, std::vector<std::string> words,
+                                            std::vector<std::string>& changes)
+{
+    const auto renamed =
+        std::find_if(all.renamed.begin(), all.renamed.end(),
+                     [&](const auto& command) { return !words.empty() && command.first->get_name() == words.front(); });
+    if (renamed == all.renamed.end()) return words;
+    for (auto& word : words)
+    {
+        if (word == "--") break;
+        const auto end = std::min(word.find('='), word.size());
+        const auto found = renamed->second.find(word.substr(0, end));
+        if (found == renamed->second.end()) continue;
+        changes.push_back(found->first + " is now " + found->second);
+        word = found->second + word.substr(end);
+    }
+    return words;
+}
+
 } // namespace
 
 command_line::command_line(const program_text& text) : known_(std::make_unique<arguments>(text.description, text.name))
@@ -42,14 +63,20 @@ subcommand command_line::add_subcommand(const std::string& name, const std::stri
     return subcommand(known_->add_subcommand(name, description));
 }
 
-std::optional<std::string> command_line::parse(int argc, const char* const* argv)
+std::optional<std::string> command_line::parse(int argc, const char* const* argv,
+                                               const std::function<void(const std::string&)>& note)
 {
     std::string name = known_->get_name();
     if (const auto wrong = wrong_subcommand(*known_, argc, argv); !wrong.empty())
         throw argument_error(wrong, '`' + name + " --help` lists them");
     try
     {
-        known_->parse(argc, argv);
+        std::vector<std::string> changes;
+        auto words = with_present_names(*known_, {argv + std::min(argc, 1), argv + argc}, changes);
+        if (std::find(words.begin(), words.end(), "--quiet") == words.end())
+            std::for_each(changes.begin(), changes.end(), note);
+        std::reverse(words.begin(), words.end());
+        known_->parse(std::move(words));
         return {};
     }
     catch (const CLI::Success& e) // --help, --version
@@ -70,7 +97,10 @@ bool command_line::accepts(const std::vector<std::string>& words)
 {
     try
     {
-        known_->parse(std::vector<std::string>(words.rbegin(), words.rend()));
+        std::vector<std::string> changes;
+        auto present = with_present_names(*known_, words, changes);
+        std::reverse(present.begin(), present.end());
+        known_->parse(std::move(present));
         return true;
     }
     catch (const CLI::Error&) // --help is one, too

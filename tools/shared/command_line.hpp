@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -45,8 +46,9 @@ public:
     subcommand add_subcommand(const std::string& name, const std::string& description);
 
     /// Reads the arguments of main(). Returns what is to be printed in place of a run, for --help and --version. Throws
-    /// argument_error.
-    std::optional<std::string> parse(int argc, const char* const* argv);
+    /// argument_error. `note` gets a line for each former name of an option among them, unless --quiet is, too.
+    std::optional<std::string> parse(int argc, const char* const* argv,
+                                     const std::function<void(const std::string&)>& note);
 
     /// Reads arguments, without the program's name; whether they are those of a run.
     bool accepts(const std::vector<std::string>& words);

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/write_files.hpp>
+#include <taut/files.hpp>
 
 #include "shared/interrupt.hpp"
 #include "shared/outputs.hpp"

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <system_error>
 
-#include <taut/impl/io/io_error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::tools
 {
@@ -16,7 +16,7 @@ std::vector<std::array<idx, 2>> parse_edges(std::string_view text, const std::st
     std::vector<std::array<idx, 2>> edges;
     std::size_t line = 1;
     const auto fail = [&](const std::string& what) {
-        throw io::io_error(path, what, io::impl::file_place{io::impl::file_place::line, line});
+        throw io::io_error(path, what, io::file_place{io::file_place::line, line});
     };
     for (std::size_t begin = 0; begin < text.size(); ++line)
     {

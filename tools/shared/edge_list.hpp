@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 namespace taut::tools
 {

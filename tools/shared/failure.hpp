@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/impl/mesh/mesh_error.hpp>
+#include <taut/errors.hpp>
 
 #include "shared/exit_codes.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <system_error>
 
-#include <taut/impl/io/file/file_target.hpp>
+#include <taut/impl/files/file/file_target.hpp>
 
 namespace taut::tools
 {

@@ -5,7 +5,8 @@
 #include <cstdlib>
 #include <string>
 
-#include <taut/impl/io/atomic_file.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/files/file/atomic_file.hpp>
 
 #include "shared/stop_signals.hpp"
 

@@ -3,9 +3,10 @@
 
 #include <string>
 
-#include <taut/impl/compute/queue.hpp>
+#include <taut/queue.hpp>
 
 #include "shared/build_elsewhere.hpp"
+#include "shared/own_kernels.hpp"
 
 namespace taut::tools
 {
@@ -14,7 +15,7 @@ namespace taut::tools
 inline queue open_queue(const std::string& device, bool need_double)
 {
     const device_requirements needs{.fp64 = need_double};
-    const auto chosen = device.empty() ? find_device(needs) : impl::find_device(device, needs, "--device ");
+    const auto chosen = device.empty() ? find_device(needs) : find_device(device, needs, "--device ");
     require_own_kernels(chosen);
     return queue(chosen, {.build_elsewhere = build_elsewhere(chosen, device)});
 }

@@ -185,6 +185,11 @@ option subcommand::add_choice(const std::string& name, const std::vector<std::st
     return option(added->type_name(shown)->default_str(words.front())->check(known));
 }
 
+void subcommand::rename(const std::string& former, const std::string& name) const
+{
+    arguments_of(*this).renamed[known_].emplace(former, name);
+}
+
 void subcommand::footer(const std::string& text) const
 {
     known_->footer(text);
@@ -200,6 +205,7 @@ void subcommand::remove(const std::string& name) const
     auto* const known = known_->get_option_no_throw(name);
     if (known == nullptr) return;
     arguments_of(*this).files.erase(known);
+    std::erase_if(arguments_of(*this).renamed[known_], [&](const auto& names) { return names.second == name; });
     known_->remove_option(known);
 }
 

@@ -103,6 +103,9 @@ public:
     option add_choice(const std::string& name, const std::vector<std::string>& words,
                       const std::function<void(std::size_t)>& set, const std::string& help) const;
 
+    /// The option is taken by a former name, too, with a note. Help and completion do not list it.
+    void rename(const std::string& former, const std::string& name) const;
+
     void footer(const std::string& text) const;
     /// The help of the program does not list it.
     void hide() const;

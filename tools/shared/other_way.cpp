@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "shared/other_way.hpp"
 
-#include <taut/impl/gltf/gltf.hpp>
+#include <taut/gltf.hpp>
 
 namespace taut::tools
 {
@@ -30,7 +30,7 @@ std::string other_way(mesh_error::fault_type fault, std::string_view name)
 
 std::string other_way(const io::io_error& error, std::string_view name)
 {
-    if (name == "atlas" || !io::is_gltf(error.path())) return {};
+    if (name == "atlas" || name == "bake" || !io::is_gltf(error.path())) return {};
     return "models of glTF are for `taut atlas`, which writes .glb and .gltf; convert it for other commands";
 }
 

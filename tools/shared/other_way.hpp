@@ -4,8 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/mesh/mesh_error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::tools
 {

@@ -6,7 +6,10 @@
 #include <system_error>
 #include <vector>
 
-#include <taut/impl/io/atomic_file.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/files/file/atomic_file_bodies.hpp>
+#include <taut/impl/files/file/write_files.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
 
 #include "shared/companions.hpp"
 #include "shared/failure.hpp"
@@ -101,20 +104,22 @@ void require_no_input(const known_file& written, const known_file& read)
                                                                  input.use->read_as + ' ' + input.given.string()));
 }
 
-/// A file beside an output that nobody has named is that of the output that is there, or somebody else's.
+/// Throws usage_error where a file that nobody has named would be replaced.
 void require_own(const run_file& output)
 {
-    if (const auto stray = stray_companion(output.given, output.source); !stray.empty())
-        throw usage_error(output.option.name() + ' ' + output.given.string() + ": " + stray.string() +
-                          " of another mesh would become a part of it; move it away, or choose another name");
-    std::error_code ignored;
-    if (output.path == output.given || output.path == name_of_invalid(output.given.string()) ||
-        !fs::exists(output.path, ignored))
-        return;
-    const auto own = fs::exists(output.given, ignored) ? companions_of(output.given) : std::vector<fs::path>();
-    const auto is_it = [&](const fs::path& one) { return file_identity(one) == file_identity(output.path); };
-    if (std::none_of(own.begin(), own.end(), is_it))
-        refuse(output, "is there already and no part of it; move it away, or choose another name");
+    const auto written = written_as(output.given, output.source);
+    if (output.path != written.front()) return; // looked at with that
+    try
+    {
+        if (is_tetgen(output.source))
+            io::impl::require_own_tetgen_files(output.given, written);
+        else
+            io::impl::require_own_parts(output.given, written, companions_of(output.given));
+    }
+    catch (const io::io_error& e)
+    {
+        throw usage_error(output.option.name() + ' ' + e.what());
+    }
 }
 
 } // namespace
@@ -145,8 +150,9 @@ outputs::outputs(std::span<const run_file> files)
         before.push_back(&one);
         for (const auto& input : all)
             if (input.file.is_read()) require_no_input(one, input);
-        require_own(file);
     }
+    // What belongs to an input is told as that first.
+    for (const known_file* one : before) require_own(one->file);
 }
 
 const char* outputs::place_of_report() const

@@ -76,10 +76,16 @@ std::string encode_wide(std::string_view pixels, int width, int height, int chan
 
 } // namespace
 
+bool fits_png(int width, int height, int channels, int bits) noexcept
+{
+    const auto row = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(channels * bits / 8);
+    return static_cast<std::uint64_t>(height) * (row + 1) <= 0x7fffffff;
+}
+
 std::string encode_png(std::string_view pixels, int width, int height, int channels, int bits)
 {
     if (pixels.empty()) throw picture_error("png: the picture has no pixels");
-    if (pixels.size() + static_cast<std::size_t>(height) > 0x7fffffff)
+    if (!fits_png(width, height, channels, bits))
         throw picture_error("png: more than 2 GiB; write .exr, or a smaller picture");
     if (bits == 16) return encode_wide(pixels, width, height, channels);
     std::string bytes;

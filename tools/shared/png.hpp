@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include <picture/image.hpp>
-#include <taut/impl/core/error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::tools
 {
@@ -16,6 +16,9 @@ class picture_error : public error
 public:
     using error::error;
 };
+
+/// Whether a PNG file of so many pixels can be encoded: it holds up to 2 GiB of them.
+bool fits_png(int width, int height, int channels, int bits) noexcept;
 
 /// The bytes of a PNG file of 8 or 16 bits a number (these with the higher byte first), 1 to 4 channels, the top row
 /// first. Errors: picture_error

@@ -16,5 +16,5 @@
 #include <nlohmann/json.hpp>
 #include <taut/taut.hpp>
 
-#include <taut/impl/compute/record.hpp>
-#include <taut/impl/gltf/gltf.hpp>
+#include <taut/gltf.hpp>
+#include <taut/impl/core/compute/record.hpp>

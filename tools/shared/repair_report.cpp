@@ -3,6 +3,9 @@
 
 #include <cstddef>
 
+#include <taut/impl/charts/repair/repair_finding.hpp>
+#include <taut/impl/charts/repair/repair_surface.hpp>
+
 namespace taut::tools
 {
 
@@ -26,7 +29,7 @@ std::string describe_near_edges(std::span<const vec3> points, std::span<const st
            " of each other; --weld " + number(within, 2) + " joins them";
 }
 
-nlohmann::ordered_json to_json(std::span<const impl::repair_finding> findings)
+nlohmann::ordered_json to_json(std::span<const repair_finding> findings)
 {
     auto json = nlohmann::ordered_json::array();
     for (const auto& f : findings)
@@ -38,7 +41,7 @@ nlohmann::ordered_json to_json(std::span<const impl::repair_finding> findings)
     return json;
 }
 
-void describe(labelled_lines& lines, std::span<const impl::repair_finding> findings)
+void describe(labelled_lines& lines, std::span<const repair_finding> findings)
 {
     for (const auto& f : findings) lines.add("repair", f.message());
 }

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/io/surface_file.hpp>
-#include <taut/impl/repair/repair_surface.hpp>
+#include <taut/repair.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/text_table.hpp"
 
@@ -26,9 +26,9 @@ std::string describe_near_edges(std::span<const vec3> points, std::span<const st
                                 std::span<const idx> bodies = {});
 
 /// An array of what was mended: "fault", "count", "ids" (of the file), "message", "repair" (what was done).
-nlohmann::ordered_json to_json(std::span<const impl::repair_finding> findings);
+nlohmann::ordered_json to_json(std::span<const repair_finding> findings);
 
 /// Adds a line for each.
-void describe(labelled_lines& lines, std::span<const impl::repair_finding> findings);
+void describe(labelled_lines& lines, std::span<const repair_finding> findings);
 
 } // namespace taut::tools

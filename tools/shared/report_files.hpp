@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/io/write_files.hpp>
+#include <taut/files.hpp>
 
 #include "shared/outputs.hpp"
 #include "shared/progress.hpp"

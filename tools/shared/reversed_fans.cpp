@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/core/exact/predicates.hpp>
+#include <taut/impl/files/surface/surface_file.hpp>
 
 namespace taut::tools
 {
@@ -38,11 +39,9 @@ std::size_t count_reversed_fans(const io::impl::file_faces& faces, const mesh<tr
 void note_reversed_fans(std::vector<std::string>& notes, std::size_t count)
 {
     if (count > 0)
-        notes.push_back(std::to_string(count) +
-                        (count == 1 ? " polygon, which is not convex in space, has"
-                                    : " polygons, which are not convex in space, have") +
-                        " triangles that are turned over in the map where a program cuts polygons as fans from their "
-                        "first corners; triangulate them, or begin them with other corners");
+        notes.push_back(std::to_string(count) + (count == 1 ? " concave polygon has" : " concave polygons have") +
+                        " triangles that flip in the map under fan triangulation from the first corner; triangulate "
+                        "them, or begin them with other corners");
 }
 
 } // namespace taut::tools

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/io/surface_file.hpp>
+#include <taut/impl/files/surface/surface_file.hpp>
+#include <taut/surface_file.hpp>
 
 namespace taut::tools
 {

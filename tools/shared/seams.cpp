@@ -8,8 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/atlas/chart_mesh.hpp>
-#include <taut/impl/atlas/cut_to_disk.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/charts/atlas/cut_to_disk.hpp>
 
 #include "shared/failure.hpp"
 #include "shared/text_table.hpp"
@@ -21,7 +22,7 @@ namespace
 {
 
 /// Returns whether a fault is one of the pieces that a cut leaves, not of some triangles.
-bool is_of_pieces(const impl::mesh_finding& f)
+bool is_of_pieces(const mesh_finding& f)
 {
     return f.fault == mesh_error::several_components || f.fault == mesh_error::closed_surface ||
            f.fault == mesh_error::several_boundaries || f.fault == mesh_error::handles ||
@@ -30,12 +31,10 @@ bool is_of_pieces(const impl::mesh_finding& f)
 
 /// "6 charts with 7 boundary loops"
 std::string describe_pieces(const mesh<triangle>& cut, const impl::facet_table& sides,
-                            const std::vector<impl::mesh_finding>& faults)
+                            const std::vector<mesh_finding>& faults)
 {
-    const auto found = [&](mesh_error::fault_type fault) {
-        return std::find_if(faults.begin(), faults.end(),
-                            [&](const impl::mesh_finding& f) { return f.fault == fault; });
-    };
+    const auto found = [&](mesh_error::fault_type fault)
+    { return std::find_if(faults.begin(), faults.end(), [&](const mesh_finding& f) { return f.fault == fault; }); };
     const auto parts = found(mesh_error::several_components);
     std::string text = count(parts == faults.end() ? 1 : parts->ids.size(), "chart", "charts");
     if (sides.oriented())
@@ -48,7 +47,7 @@ std::string describe_pieces(const mesh<triangle>& cut, const impl::facet_table& 
 
 } // namespace
 
-std::optional<io::cut_surface> cut_open(const io::surface_file& file, impl::mesh_requirements need, bool wanted)
+std::optional<io::cut_surface> cut_open(const io::surface_file& file, mesh_requirements need, bool wanted)
 {
     need.referenced = false;
     if (file.texcoords.empty()) return std::nullopt;

@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include <taut/impl/io/cut_seams.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
+#include <taut/surface_file.hpp>
 #include <vector>
 
 namespace taut::tools
@@ -17,7 +17,7 @@ namespace taut::tools
 /// without, or if that is `wanted`; else nothing. What cutting does not mend stays for validate().
 /// Throws unsuitable_input where the cut leaves anything but one piece of the required topology, and io::texcoord_error
 /// if a cut is wanted and a corner has no texture coordinate.
-std::optional<io::cut_surface> cut_open(const io::surface_file& file, impl::mesh_requirements need, bool wanted);
+std::optional<io::cut_surface> cut_open(const io::surface_file& file, mesh_requirements need, bool wanted);
 
 /// The surface of a file cut open along seams that make it one disk; nothing if it is one.
 /// Throws mesh_error (no oriented manifold, several components), unsuitable_input (a seam through a polygon).

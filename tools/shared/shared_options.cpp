@@ -20,13 +20,14 @@ void add_format(const subcommand& app, io::surface_format& format)
                                    "Format of IN; auto: by its name, for - (standard input) by its first bytes");
 }
 
-void add_drawing(const subcommand& app, std::string& picture, std::string& cut, const std::string& help)
+void add_drawing(const subcommand& app, std::string& picture, std::string& clip, const std::string& help)
 {
     add_output(app, "--picture", picture, {.extensions = {".png", ".svg"}}, help + ", coloured by distortion");
-    app.add_option("--cut", cut,
-                   "Show the inside of a volume in the picture: without the elements whose centre is beyond a plane "
-                   "across an axis, x, y, z or x:FRACTION of the extent, or nx,ny,nz,d: nx x + ny y + nz z = d")
+    app.add_option("--clip", clip,
+                   "Show the inside of a volume in the picture: hide elements with the centre beyond a plane across an "
+                   "axis, x, y, z or x:FRACTION of the extent, or nx,ny,nz,d: nx x + ny y + nz z = d")
         .type_name("PLANE");
+    app.rename("--cut", "--clip");
 }
 
 void add_fix(const subcommand& app, std::vector<std::string>& groups)
@@ -36,7 +37,7 @@ void add_fix(const subcommand& app, std::vector<std::string>& groups)
 
 void add_zone(const subcommand& app, int& zone)
 {
-    app.add_option("--zone", zone, "Zone of a SU2 file with several, from 1; others are not changed")
+    app.add_option("--zone", zone, "Zone of a SU2 file with several, from 1; the others stay unchanged")
         .type_name("N")
         .check_range(1, std::numeric_limits<int>::max());
 }
@@ -45,15 +46,14 @@ void add_refine(const subcommand& app, bool& refine, std::string& map, const std
 {
     app.add_flag("--refine", refine, help);
     add_output(app, "--refined-map", map, {.extensions = {".csv"}},
-               "Write which element of the input each element is a part of, as element,of")
+               "Write the parent in the input of each element, as element,of")
         .needs("--refine");
 }
 
 void add_device(const subcommand& app, std::string& device)
 {
-    app.add_option(
-           "--device", device,
-           "Number or part of the name of an OpenCL device, see `taut devices`; without it, $TAUT_DEVICE counts")
+    app.add_option("--device", device,
+                   "Number or part of the name of an OpenCL device, see `taut devices`; default: $TAUT_DEVICE")
         .type_name("D")
         .check([](const std::string& text)
                { return text.empty() ? "there is no device without a name; leave the option out" : ""; });

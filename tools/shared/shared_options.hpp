@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/io/read_surface.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/options.hpp"
 #include "shared/progress.hpp"
@@ -16,8 +16,8 @@ namespace taut::tools
 /// --format of a surface to read
 void add_format(const subcommand& app, io::surface_format& format);
 
-/// --picture of a volume or a planar mesh, and --cut
-void add_drawing(const subcommand& app, std::string& picture, std::string& cut, const std::string& help);
+/// --picture of a volume or a planar mesh, and --clip
+void add_drawing(const subcommand& app, std::string& picture, std::string& clip, const std::string& help);
 
 /// --fix: groups of a volume
 void add_fix(const subcommand& app, std::vector<std::string>& groups);

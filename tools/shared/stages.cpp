@@ -6,7 +6,7 @@
 namespace taut::tools
 {
 
-nlohmann::ordered_json to_json(const impl::stage_report& s)
+nlohmann::ordered_json to_json(const stage_report& s)
 {
     return {{"stage", s.stage},
             {"level", s.level},

@@ -3,13 +3,13 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/objective/stage_report.hpp>
+#include <taut/options.hpp>
 
 namespace taut::tools
 {
 
 /// A stage of a run as all commands report it.
-nlohmann::ordered_json to_json(const impl::stage_report& stage);
+nlohmann::ordered_json to_json(const stage_report& stage);
 
 template <class Stages>
 nlohmann::ordered_json to_json_array(const Stages& stages)

@@ -6,7 +6,7 @@
 #include <string>
 #include <system_error>
 
-#include <taut/impl/core/error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::tools
 {

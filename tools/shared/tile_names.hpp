@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/core/types.hpp>
+#include <taut/types.hpp>
 
 namespace taut::tools
 {

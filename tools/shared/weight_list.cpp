@@ -9,7 +9,7 @@
 
 #include <picture/format.hpp>
 
-#include <taut/impl/io/io_error.hpp>
+#include <taut/errors.hpp>
 
 namespace taut::tools
 {
@@ -19,7 +19,7 @@ weight_list parse_weights(std::string_view text, const std::string& path, idx ve
     weight_list list;
     std::size_t line = 1;
     const auto fail = [&](const std::string& what) {
-        throw io::io_error(path, what, io::impl::file_place{io::impl::file_place::line, line});
+        throw io::io_error(path, what, io::file_place{io::file_place::line, line});
     };
     for (std::size_t begin = 0; begin < text.size(); ++line)
     {

@@ -5,8 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include <taut/impl/io/atomic_file.hpp>
-#include <taut/impl/io/write_files.hpp>
+#include <taut/files.hpp>
 
 #include "shared/failure.hpp"
 #include "shared/interrupt.hpp"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/volume_file.hpp>
 
 #include "commands.hpp"
 #include "deform/shell_run.hpp"
@@ -37,14 +37,14 @@ exit_code run(const untangle_options& options, const outputs& files, std::chrono
         report.seconds.read =
             command.clock.timed([&] { file = read_volume_at_rest(options.input, options.rest, options.zone); });
         require_name(options.output, *file);
-        require_drawable(*file, {options.picture, options.cut});
+        require_drawable(*file, {options.picture, options.clip});
         require_mesh(*file);
         return with_case(*file, [&]<class Element>(const volume_case<Element>& input)
                          { return untangled(problem_of(input, options, report), &input); });
     }
     if (names_surface(options.input))
-        throw io::io_error(options.input, "is a surface in space, of which no element is inverted; `taut deform` moves "
-                                          "one, `taut unwrap` maps it to the plane");
+        throw io::io_error(options.input, "is a surface in space, which has no inverted elements; move it with `taut "
+                                          "deform`, or map it to the plane with `taut unwrap`");
     std::optional<decltype(io::read_prob({}))> file;
     report.seconds.read = command.clock.timed([&] { file = io::read_prob(options.input); });
     return std::visit(
@@ -52,7 +52,7 @@ exit_code run(const untangle_options& options, const outputs& files, std::chrono
         {
             auto problem = make_untangle_problem(std::move(read));
             const auto as_file = file_of(problem);
-            require_drawable(as_file, {options.picture, options.cut});
+            require_drawable(as_file, {options.picture, options.clip});
             require_mesh(as_file);
             return untangled(std::move(problem));
         },

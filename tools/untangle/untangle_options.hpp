@@ -22,7 +22,7 @@ enum class untangle_boundary
 struct untangle_options
 {
     std::string input, output, stats, picture, device, progress;
-    std::string rest, pins, cut;    ///< of volume files
+    std::string rest, pins, clip;   ///< of volume files
     std::vector<std::string> fixed; ///< groups
     untangle_boundary boundary = untangle_boundary::automatic;
     double time_limit = std::numeric_limits<double>::infinity();

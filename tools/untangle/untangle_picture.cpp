@@ -4,8 +4,9 @@
 #include <picture/layout_svg.hpp>
 #include <picture/side_by_side_svg.hpp>
 #include <picture/symmetric_distortion.hpp>
-#include <taut/impl/exact/branch_points.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/mesh.hpp>
 
 #include "shared/outputs.hpp"
 #include "shared/png.hpp"

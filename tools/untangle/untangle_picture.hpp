@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <picture/layout_picture.hpp>
-#include <taut/impl/constrain/untangle_problem.hpp>
-#include <taut/impl/io/volume_file.hpp>
+#include <taut/untangle_problem.hpp>
+#include <taut/volume_file.hpp>
 
 namespace taut::tools
 {
@@ -42,7 +42,7 @@ io::volume_file file_of(const untangle_problem<Element>& p)
     file.cells = {{planar ? io::cell_kind::triangle : io::cell_kind::tetrahedron, {}}};
     for (const auto& cell : p.rest.cells())
         file.cells.front().corners.insert(file.cells.front().corners.end(), cell.begin(), cell.end());
-    io::impl::volume_group fixed{"fixed", 0, {}};
+    io::volume_group fixed{"fixed", 0, {}};
     for (std::size_t v = 0; v < p.held.size(); ++v)
         if (p.held.all(v)) fixed.vertices.push_back(static_cast<idx>(v));
     file.groups.push_back(std::move(fixed));

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/untangle/result.hpp>
+#include <taut/untangle.hpp>
 
 #include "shared/exit_codes.hpp"
 #include "untangle/untangle_options.hpp"
@@ -39,7 +39,7 @@ struct untangle_report
     volume_state state_before, state_after;                   ///< of a volume file
     std::string stage;
     std::optional<refined_size> refined; ///< none: no element was split
-    std::vector<impl::untangle_stage_report> stages;
+    std::vector<untangle_stage_report> stages;
     double pin_rounding = 0; ///< by which pins were moved to where the file can hold them, at most
     std::vector<std::string> notes;
     struct

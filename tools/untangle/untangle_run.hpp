@@ -12,13 +12,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/write_files.hpp>
-#include <taut/impl/io/write_map.hpp>
-#include <taut/impl/io/write_volume.hpp>
-#include <taut/impl/measure/describe_defects.hpp>
-#include <taut/impl/untangle/proofs/infeasible.hpp>
-#include <taut/impl/untangle/untangle.hpp>
-#include <taut/impl/untangle/untangle_refined.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/core/measure/describe_defects.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/untangle.hpp>
 
 #include "shared/command_run.hpp"
 #include "shared/failure.hpp"
@@ -131,7 +129,7 @@ private:
     }
 
     /// The mesh from here on, some of whose elements are split.
-    void go_on_with(impl::refined_problem<Element> refined)
+    void go_on_with(refined_problem<Element> refined)
     {
         parts_ = std::move(refined.cells);
         if (!input_) problem_file_ = io::impl::subdivided(*problem_file_, refined.how);
@@ -287,7 +285,7 @@ private:
         const bool by_shape = shown.file().rest.empty();
         std::vector<drawn_state> states{state_to_draw(shown, name + ": before", problem_->initial, by_shape)};
         if (!map_.empty()) states.push_back(state_to_draw(shown, "after: " + report_.outcome, map_, by_shape));
-        return draw_states(shown.file(), states, {options_.picture, options_.cut, by_shape});
+        return draw_states(shown.file(), states, {options_.picture, options_.clip, by_shape});
     }
 
     std::string picture_of_problem(const std::string& name) const requires(D == 2)

@@ -9,12 +9,11 @@
 
 #include <picture/render_picture.hpp>
 #include <picture/symmetric_distortion.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_files.hpp>
-#include <taut/impl/io/write_obj.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/measure/describe_defects.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/core/measure/describe_defects.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/volume_file.hpp>
 
 #include "commands.hpp"
 #include "shared/command_run.hpp"
@@ -44,7 +43,7 @@ queue open_queue(const unwrap_options& options, std::vector<std::string>& notes)
     queue q =
         tools::open_queue(options.device, need); // a wish for double or mixed precision needs a device with double
     if (options.precision == precision::automatic && !q.device().has_fp64())
-        notes.push_back("the device has no double precision: calculated in float");
+        notes.push_back("the device has no double precision: computed in float");
     return q;
 }
 
@@ -108,7 +107,7 @@ private:
         pins_.add(pins);
         report_.pins = pins_.pins().size();
         report_.springs = pins_.springs().size();
-        if (pins.empty()) report_.notes.push_back(options_.pins + ": no pins in it; nothing is held");
+        if (pins.empty()) report_.notes.push_back(options_.pins + ": has no pins; nothing is fixed");
     }
 
     void parameterize()
@@ -142,7 +141,7 @@ private:
         report_.map = std::move(result.report);
         report_.notes.insert(report_.notes.end(), report_.map.notes.begin(), report_.map.notes.end());
         if (params.no_overlap && params.boundary != boundary_mode::free && !params.holes)
-            report_.notes.push_back("no two triangles overlap on a circle or square: --no-overlap changes nothing");
+            report_.notes.push_back("no triangles overlap on a circle or square: --no-overlap has no effect");
         keep(!result.uv.empty());
         if (!result) refuse(result);
         uv_ = std::move(result.uv);
@@ -153,12 +152,28 @@ private:
         take_polygons(report_.after, polygons, uv_);
         report_.after.reversed_fans = count_reversed_fans(file_->faces, surface(), uv_);
         note_reversed_fans(report_.notes, report_.after.reversed_fans);
+        note_unfinished();
         report_.after.vertices = file_->surface.vertex_count();
         report_.seam_vertices = cut_ ? cut_->seam_vertices : 0;
         // The certificate of exactly what is written, taken by other code than the solver's.
         if (!report_.after.quality.flips)
             throw no_valid_map("the map has " + impl::describe_defects<triangle>(report_.after.quality.flips) +
                                "; --precision fp64 may succeed");
+    }
+
+    /// A run that ends at the limit of iterations with a map of great distortion is not done.
+    void note_unfinished()
+    {
+        constexpr double great = 1e4; // isometric energy; 4 is an isometry
+        const double energy = report_.after.quality.isometric.measure;
+        if (report_.map.solve.stop != solve::stop::iterations || !(energy > great)) return;
+        report_.notes.push_back("the limit of " +
+                                count(static_cast<std::uint64_t>(options_.iterations), "iteration", "iterations") +
+                                " ended the run with an isometric energy of " + number(energy) +
+                                ", where 4 is an isometry: parts are "
+                                "squeezed to almost nothing; " +
+                                (options_.holes && !options_.cut ? "--cut in place of --holes opens the surface"
+                                                                 : "another --start, or cuts, may do better"));
     }
 
     /// Never a folded map under the name that was asked for: the best one goes beside it.
@@ -171,6 +186,8 @@ private:
         if (map.outcome != outcome::gave_up)
             throw no_valid_map(map.reason + (options_.start == start_kind::uv
                                                  ? "; --start tutte makes a map without flips"
+                                             : options_.holes && !options_.cut
+                                                 ? "; --cut in place of --holes opens the surface, which may succeed"
                                                  : "; --start mean-value or --spacing uniform may succeed"));
         const std::string best = name_of_invalid(options_.output);
         if (!best.empty())

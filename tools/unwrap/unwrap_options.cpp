@@ -3,9 +3,7 @@
 
 #include <chrono>
 
-#include <taut/impl/energy/area.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/energy/shape.hpp>
+#include <taut/energies.hpp>
 
 #include "shared/choices.hpp"
 #include "shared/failure.hpp"
@@ -45,7 +43,7 @@ void declare_map(const subcommand& app, unwrap_options& o)
                                  {{"chord", boundary_spacing::chord},
                                   {"uniform", boundary_spacing::uniform},
                                   {"centripetal", boundary_spacing::centripetal}},
-                                 "Gaps on the circle or square: as edge lengths, equal, as their roots");
+                                 "Spacing on the circle or square: by edge lengths, uniform, by their square roots");
     add_choice<taut::placement>(
         app, "--placement", o.placement,
         {{"upright", placement::upright}, {"unit-square", placement::unit_square}, {"as-solved", placement::as_solved}},
@@ -54,12 +52,10 @@ void declare_map(const subcommand& app, unwrap_options& o)
         "circle or square the boundary is not moved, unless unit-square scales it into "
         "the unit square, a square onto it");
     add_input(app, "--pins", o.pins, "the pins",
-              "Pins and springs, one per line: vertex,u,v[,weight]; from 0, in the order of "
-              "the file; without a weight a pin, met exactly, with one a spring; an empty u or "
-              "v is free")
+              "Pins and springs, one per line: vertex,u,v[,weight]; vertices from 0, in file order; "
+              "without a weight an exact pin, with a weight a spring; an empty u or v is free")
         .type_name("FILE.csv");
-    app.add_flag("--cut", o.cut,
-                 "Cut a surface that is no disk open along short seams: closed ones, handles, between boundaries");
+    app.add_flag("--cut", o.cut, "Cut closed surfaces, handles, and between boundaries along short seams");
     app.add_flag("--holes", o.holes, "Accept surfaces with holes; the longest boundary is the outer one");
     app.add_flag("--no-overlap", o.no_overlap,
                  "Keep the boundary from crossing itself, so that no two triangles of the map overlap");
@@ -91,7 +87,7 @@ void declare_solver(const subcommand& app, unwrap_options& o)
          {"fp64", precision::fp64},
          {"mixed", precision::mixed},
          {"fp32", precision::fp32}},
-        "Arithmetic of the optimisation: double, mixed, float; the check for flips is exact in any case");
+        "Arithmetic of the optimisation: double, mixed, float; the check for flips is always exact");
     add_device(app, o.device);
 }
 
@@ -113,12 +109,13 @@ void declare_reports(const subcommand& app, unwrap_options& o)
 
 void declare(const subcommand& app, unwrap_options& o)
 {
-    add_input(app, "IN", o.input, "the input",
-              "Surface: OBJ, OFF, PLY or STL; - is standard input; cut open along the seams of its vt if it is no disk")
+    add_input(
+        app, "IN", o.input, "the input",
+        "Surface: OBJ, OFF, PLY or STL; - is standard input; if it is no disk, it is cut along the seams of its vt")
         .required();
     add_output(app, "-o,--output", o.output,
                {.extensions = {".obj"}, .made_of = "IN", .in_place = true, .may_fail = true},
-               "OBJ to write: the file as it is, with new vt; - is standard output, here and below")
+               "OBJ to write: the input with new vt; - is standard output, here and below")
         .required()
         .type_name("OUT.obj");
     add_format(app, o.format);
@@ -130,7 +127,7 @@ void declare(const subcommand& app, unwrap_options& o)
 void check(const unwrap_options& o)
 {
     if (o.start == start_kind::uv && o.boundary != boundary_kind::free)
-        throw usage_error("--boundary circle and square lay the boundary anew, which --start uv does not; "
+        throw usage_error("--boundary circle and square replace the boundary, which --start uv keeps; "
                           "leave out one of them");
     if (o.start == start_kind::conformal && o.boundary != boundary_kind::free)
         throw usage_error("--start conformal moves the boundary, which --boundary circle and square fix; "
@@ -140,7 +137,7 @@ void check(const unwrap_options& o)
     if (o.placement != placement::upright && !o.pins.empty())
         throw usage_error("--placement: --pins fix the map; leave one of them out");
     if ((o.up || o.front) && o.render.empty())
-        throw usage_error("--up and --front turn the picture of --render; name one");
+        throw usage_error("--up and --front rotate the picture of --render; name one");
     if (o.tolerance && !(*o.tolerance < 1)) throw usage_error("--tolerance: must be below 1");
     if (!(o.time_limit > 0)) throw usage_error("--time-limit: must be positive");
 }

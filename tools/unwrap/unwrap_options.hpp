@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/map/parameterize_params.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/options.hpp"
 

@@ -11,6 +11,8 @@
 #include "shared/stages.hpp"
 #include "shared/text_table.hpp"
 
+#include <taut/impl/core/measure/distortion.hpp>
+
 namespace taut::tools
 {
 

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/map/map_result.hpp>
+#include <taut/parameterize.hpp>
 
 #include "shared/assessment.hpp"
 #include "shared/exit_codes.hpp"

@@ -10,7 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <taut/impl/io/atomic_file.hpp>
+#include <taut/files.hpp>
 
 #include "view/leading_page.hpp"
 

@@ -154,7 +154,8 @@ private:
         const auto host = text(request[http::field::host]);
         const auto origin = request.find(http::field::origin);
         const bool upgrade = websocket::is_upgrade(request);
-        if (!service_.entrance->is_local(host) || (origin == request.end() && upgrade) ||
+        if (request.count(http::field::host) != 1 || !service_.entrance->is_local(host) ||
+            (origin == request.end() && upgrade) ||
             (origin != request.end() && !service_.entrance->is_own(text(origin->value()), host)))
             return respond(http::status::forbidden, "forbidden\n", "text/plain");
         if (upgrade)

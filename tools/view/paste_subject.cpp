@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/edit/feature_map.hpp>
-#include <taut/impl/edit/paste.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/surface/obj_output.hpp>
+#include <taut/impl/files/surface/obj_output.hpp>
+#include <taut/paste.hpp>
+#include <taut/surface_file.hpp>
 
 #include "paste/paste_check.hpp"
 #include "view/floats.hpp"
@@ -73,7 +72,7 @@ public:
         pose.validate();
         if (to.onto < 0)
         {
-            if (!paste_) throw error("the feature is nowhere: click where it is to be");
+            if (!paste_) throw error("the feature is not placed: click on the surface");
             if (is_near(pose))
             {
                 paste_->pose(pose);
@@ -99,7 +98,7 @@ public:
 
     void keep() override
     {
-        if (!paste_) throw error("the feature is nowhere: click where it is to be");
+        if (!paste_) throw error("the feature is not placed: click on the surface");
         tools::require_sound(*paste_);
         auto kept = std::make_shared<const mesh<triangle>>(paste_->surface());
         kept_at_ = target_->points()[static_cast<std::size_t>(onto_)];

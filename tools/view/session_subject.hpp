@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/map/session.hpp>
-#include <taut/impl/untangle/untangle.hpp>
+#include <taut/session.hpp>
+#include <taut/untangle.hpp>
 
 #include "view/subject.hpp"
 
@@ -139,10 +139,9 @@ public:
         // stuck.
         constexpr int patience = 5;
         goes_on_ = goes_on;
-        const auto r = session_
-                           ->solve(idle_ < patience ? taut::impl::session_budget{.time = time}
-                                                    : taut::impl::session_budget{.steps = 25})
-                           .report;
+        const auto r =
+            session_->solve(idle_ < patience ? taut::session_budget{.time = time} : taut::session_budget{.steps = 25})
+                .report;
         if (r.outcome != outcome::valid || !r.reason.empty()) throw error(r.reason);
         // Where a pin is in another one's way the energy creeps for ever.
         const bool gains = r.steps > 0 && (r.distance < 0.999 * distance_ || r.energy < (1 - 1e-5) * energy_);

@@ -6,17 +6,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_obj.hpp>
-#include <taut/impl/map/deform.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/mesh/thin_shell.hpp>
+#include <taut/deform.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/shell.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/volume_file.hpp>
 
 #include "shared/failure.hpp"
 #include "shared/seams.hpp"
@@ -139,9 +138,7 @@ struct opened_volume
 {
     opened_volume(io::volume_file f, const source& from) : file(std::move(f)), input(file)
     {
-        if (!from.pins.empty())
-            constraints = pinned(input.simplices(),
-                                 io::read_pins<Element::dimension>(from.pins, static_cast<idx>(file.points.size())));
+        if (!from.pins.empty()) constraints = pinned(input.simplices(), input.read_pins(from.pins));
     }
 
     deform_params<Element> params() const
@@ -305,13 +302,32 @@ private:
 
 } // namespace
 
+namespace
+{
+
+/// Throws usage_error for options that would have no effect.
+void require_used(const source& from, bool pasting, bool volume)
+{
+    const auto refuse = [](const char* option, const char* why)
+    { throw tools::usage_error(std::string(option) + ' ' + why + "; leave it out"); };
+    if (from.zone > 0 && !volume) refuse("--zone", "is for SU2 files");
+    if (pasting && !from.pins.empty()) refuse("--pins", "is not for a pasted feature");
+    if (pasting && from.shell) refuse("--shell", "is not for a pasted feature");
+    if (from.holes && (pasting || from.shell || volume))
+        refuse("--holes", volume ? "is for surfaces" : "is for maps; other surfaces may have holes");
+}
+
+} // namespace
+
 std::unique_ptr<subject> make_subject(queue& q, const source& from)
 {
-    if (from.zone > 0 && (!tools::names_volume(from.path) || from.shell || !from.feature.source.empty()))
-        throw tools::usage_error("--zone is of SU2 files; leave it out");
-    if (!from.feature.source.empty()) return make_paste_subject(q, from);
+    const bool pasting = !from.feature.source.empty();
+    const bool volume =
+        !pasting && !from.shell && from.format == io::surface_format::automatic && tools::names_volume(from.path);
+    require_used(from, pasting, volume);
+    if (pasting) return make_paste_subject(q, from);
     if (from.shell) return std::make_unique<shell_subject>(q, from);
-    if (!tools::names_volume(from.path)) return std::make_unique<map_subject>(q, from);
+    if (!volume) return std::make_unique<map_subject>(q, from);
     auto file = io::read_volume_file(from.path, io::volume_format::automatic, from.zone);
     tools::require_mesh(file);
     if (file.dimension == 2) return std::make_unique<shape_subject<triangle>>(q, std::move(file), from);

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include <taut/impl/compute/queue.hpp>
-#include <taut/impl/io/read_surface.hpp>
+#include <taut/queue.hpp>
+#include <taut/surface_file.hpp>
 
 #include "view/subject.hpp"
 

@@ -94,7 +94,7 @@ command add_view(command_line& program)
         .type_name("FILE.csv");
     auto& feature = options->from.feature;
     const option source = add_input(app, "--source", feature.source, "the source",
-                                    "Source surface of a feature to be pasted on IN, as by `taut paste`");
+                                    "Source surface of a feature to paste on IN, as by `taut paste`");
     app.add_option("--at", feature.at, "Vertex of the source at the centre of the feature, from 0")
         .type_name("V")
         .needs(source);
@@ -102,12 +102,12 @@ command add_view(command_line& program)
         .type_name("R")
         .needs(source);
     app.add_option("--onto", feature.onto, "Initial vertex of the feature on IN, from 0").type_name("V").needs(source);
-    app.add_option("--scale", feature.scale, "Scale of the feature: lengths in the result by those in the source")
+    app.add_option("--scale", feature.scale,
+                   "Scale of the feature: lengths in the result divided by lengths in the source")
         .type_name("S")
         .needs(source);
-    app.add_option(
-           "--triangles", feature.triangles,
-           "Remesh the feature from its map, with about this many triangles, each time that its rim is attached")
+    app.add_option("--triangles", feature.triangles,
+                   "Remesh the feature from its map, with about this many triangles, each time its rim is attached")
         .type_name("N")
         .check_range(1, 100'000'000)
         .needs(source);
@@ -124,8 +124,8 @@ command add_view(command_line& program)
     app.add_flag("--no-browser", options->no_browser, "Only print the address");
     add_zone(app, options->from.zone);
     add_device(app, options->device);
-    app.footer("exit codes: 0 ended by its page or Ctrl-C; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no "
-               "device;\n  6 no map to begin with; 9 device failure; 130 interrupted, 143 terminated");
+    app.footer("exit codes: 2 usage; 3 unreadable input; 4 unsuitable input; 5 no "
+               "device;\n  6 no map to begin with; 9 device failure; 130 ended by Ctrl-C, 143 terminated");
     return [options](const outputs&) { return serve(*options); };
 }
 

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include <taut/impl/core/linalg.hpp>
-#include <taut/impl/mesh/incidence.hpp>
-#include <taut/impl/mesh/triangle.hpp>
+#include <taut/elements.hpp>
+#include <taut/impl/core/mesh/incidence.hpp>
+#include <taut/types.hpp>
 
 namespace taut::view
 {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/measure/describe_defects.hpp>
-#include <taut/impl/mesh/cell_corners.hpp>
+#include <taut/impl/core/measure/describe_defects.hpp>
+#include <taut/impl/core/mesh/cell_corners.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
 
 #include "shared/text_table.hpp"
 #include "volume/shape_report.hpp"
@@ -73,7 +73,7 @@ void report_signs(check_report& report, const volume_case<Element>& input, const
 template <class Element>
 void report_facets(check_report& report, const mesh<Element>& m)
 {
-    const impl::mesh_requirements need{
+    const mesh_requirements need{
         .referenced = false, .connected = false, .open = false, .one_boundary = false, .no_handles = false};
     for (const auto& f : taut::check(m, need))
         if (f.fault != mesh_error::degenerate_cell && f.fault != mesh_error::inverted_cell)

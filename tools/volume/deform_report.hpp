@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/map/session_result.hpp>
+#include <taut/session.hpp>
 
 #include "volume/refined_case.hpp"
 #include "volume/shape_options.hpp"

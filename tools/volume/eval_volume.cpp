@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/measure/describe_defects.hpp>
-#include <taut/impl/measure/quality.hpp>
+#include <taut/impl/core/measure/describe_defects.hpp>
+#include <taut/quality.hpp>
 
 #include "shared/assessment.hpp"
 #include "shared/outputs.hpp"
@@ -110,7 +110,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
     if (!input.file().turned.empty()) notes.push_back(turned_note(input.file()));
     volume_map map;
     if (has_rest) map = measure(input, x);
-    if (!has_rest) notes.push_back("no shape at rest, so no distortion: name its file first, `taut eval REST MAP`");
+    if (!has_rest) notes.push_back("no rest shape, so no distortion: give its file first, `taut eval REST MAP`");
     if (map.left_out > 0)
         notes.push_back(impl::counted(map.left_out, "corner", "corners") +
                         " not positive at rest: left out of everything but the count of inverted cells");
@@ -176,7 +176,7 @@ void evaluate(const eval_volume_options& options, const volume_case<Element>& in
 exit_code evaluate_volume(const eval_volume_options& options)
 {
     const auto file = read_volume_at_rest(options.input, options.rest, options.zone);
-    const drawing_options drawing{options.picture, options.cut, file.rest.empty()};
+    const drawing_options drawing{options.picture, options.clip, file.rest.empty()};
     require_drawable(file, drawing);
     require_mesh(file);
     with_case(file,

@@ -12,7 +12,7 @@ namespace taut::tools
 struct eval_volume_options
 {
     std::string input, rest; ///< rest: empty, if there is none
-    std::string picture, cut;
+    std::string picture, clip;
     bool json = false;
     int zone = 0; ///< of a SU2 file of several; 0: none
 };

@@ -8,13 +8,15 @@
 #include <limits>
 #include <numbers>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
-#include <taut/impl/constrain/constraints.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/mesh/describe.hpp>
+#include <taut/constraints.hpp>
+#include <taut/impl/core/mesh/describe.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/failure.hpp"
+#include "shared/text_table.hpp"
 
 namespace taut::tools
 {
@@ -52,6 +54,17 @@ std::vector<double> numbers_of(const std::string& text, std::size_t count, const
     if (numbers.size() != count)
         throw usage_error(option + ": give " + std::to_string(count) + " numbers with commas between");
     return numbers;
+}
+
+void require_half_turns(const std::vector<std::string>& moves)
+{
+    const auto& [key, count] = transforms[1];
+    for (const auto& move : moves)
+        if (const auto at = move.rfind(key); at != move.npos)
+            if (std::abs(numbers_of(move.substr(at + std::string_view(key).size()), count, "--move " + move)[3]) > 180)
+                throw usage_error("--move " + move +
+                                  ": rotations are of 180 degrees at most here; make several runs, "
+                                  "or use `taut deform`");
 }
 
 rigid_motion<3> motion_of(const std::string& group, const vec3& middle, const std::vector<double>& numbers)
@@ -96,16 +109,24 @@ void group_targets::move(const std::string& text)
                           "GROUP:rotate:ax,ay,az,degrees or GROUP:scale:factor");
     const std::string name = text.substr(0, at);
     const auto& members = group(name).vertices;
-    for (const auto& p : io::read_pins<3>(text.substr(at + 1), static_cast<idx>(file_.points.size())))
+    const auto path = text.substr(at + 1);
+    const auto place = [&](const auto& p, const vec3& target)
     {
         if (!std::binary_search(members.begin(), members.end(), p.vertex))
-            throw unsuitable_input(text.substr(at + 1) + ": vertex " + std::to_string(p.vertex) + " is not in group " +
-                                   name + "; leave its line out, or use --pins");
-        if (!p.hard() || p.held != constraints<tetrahedron>::all)
-            throw unsuitable_input(text.substr(at + 1) + ": vertex " + std::to_string(p.vertex) +
+            throw unsuitable_input(path + ": vertex " + std::to_string(p.vertex) + " is not in group " + name +
+                                   "; leave its line out, or use --pins");
+        constexpr int D = std::decay_t<decltype(p.target)>::length();
+        if (!p.hard() || p.held != taut::impl::fixed_marks<D>::every)
+            throw unsuitable_input(path + ": vertex " + std::to_string(p.vertex) +
                                    " has a weight or lacks a coordinate; use --pins for those");
-        take(p.vertex, p.target, name);
-    }
+        take(p.vertex, target, name);
+    };
+    const auto vertices = static_cast<idx>(file_.points.size());
+    if (file_.dimension == 3)
+        for (const auto& p : io::read_pins<3>(path, vertices)) place(p, p.target);
+    else
+        for (const auto& p : io::read_pins<2>(path, vertices, file_.points.front().z))
+            place(p, vec3(p.target, point(p.vertex).z));
 }
 
 void group_targets::transform(const std::string& name, std::size_t kind, const std::vector<double>& n)
@@ -115,17 +136,22 @@ void group_targets::transform(const std::string& name, std::size_t kind, const s
     for (const idx v : members) middle += point(v) / static_cast<double>(members.size());
     const auto motion = motion_of(name, middle, n);
     for (const idx v : members) take(v, kind == 1 ? middle + n[0] * (point(v) - middle) : motion(point(v)), name);
+    rotations_.emplace_back(members, motion);
 }
 
 std::string group_targets::note() const
 {
     if (settled_.empty()) return {};
     return taut::impl::list_ids("vertex", "vertices", settled_) +
-           " in two groups, whose places differ by rounding; that of the first counts, of --fix before --move";
+           " in two groups with positions that differ by rounding; the first one counts, --fix before --move";
 }
 
 void group_targets::take(idx v, const vec3& x, const std::string& name)
 {
+    if (const double plane = point(v).z; file_.dimension == 2 && std::abs(x.z - plane) > rounding_)
+        throw unsuitable_input("vertex " + std::to_string(v) + " of " + name + " goes to z = " + number(x.z) +
+                               ", out of the plane of the mesh, z = " + number(plane) +
+                               "; give a motion within it: rotations about 0,0,1");
     const auto [at, is_new] = targets_.try_emplace(v, x);
     const auto apart = [&, at = at](int k) { return std::abs(at->second[k] - x[k]) > rounding_; };
     if (!is_new && at->second != x && !apart(0) && !apart(1) && !apart(2))

@@ -8,8 +8,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include <taut/impl/io/write_volume.hpp>
-#include <taut/impl/mesh/refine_elements.hpp>
+#include <taut/impl/core/mesh/refine_elements.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
 
 #include "shared/failure.hpp"
 #include "volume/volume_case.hpp"

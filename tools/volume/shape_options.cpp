@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "volume/shape_options.hpp"
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/area.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/energy/neo_hookean.hpp>
-#include <taut/impl/energy/shape.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
 
 #include "shared/choices.hpp"
 #include "shared/outputs.hpp"
@@ -43,7 +40,7 @@ void declare_shared(const subcommand& app, shape_options& o, const std::string& 
     add_time_limit(app, o.time_limit, "Stop after S seconds, with the best mesh so far");
     add_device(app, o.device);
     add_stats(app, o.stats);
-    add_drawing(app, o.picture, o.cut, "Draw the mesh before and after");
+    add_drawing(app, o.picture, o.clip, "Draw the mesh before and after");
     add_progress(app, o.progress, o.quiet);
     app.footer("exit codes: 0 valid mesh; 2 usage; 3 unreadable input; 4 unsuitable input; 5 no device;\n"
                "  6 none was found; 7 proved infeasible; 8 time limit, with the best mesh written; 9 device failure;\n"
@@ -61,7 +58,7 @@ void declare_deform(const subcommand& app, shape_options& o)
         app.add_option(
                "--move", o.moves,
                "Move a group: GROUP=FILE.csv (vertex,x,y,z), GROUP:translate:x,y,z, GROUP:rotate:ax,ay,az,degrees "
-               "or GROUP:scale:factor, about its middle")
+               "or GROUP:scale:factor, about its centre")
             .type_name("MOVE");
     declare_files(app, moves, {.read_as = "the file of --move", .file_in = file_of_move});
     add_input(app, "--rest", o.rest, "the shape at rest",
@@ -71,13 +68,13 @@ void declare_deform(const subcommand& app, shape_options& o)
                               {"shape", shape_energy::shape},
                               {"volume", shape_energy::volume},
                               {"neo-hookean", shape_energy::neo_hookean}},
-                             "Energy, which preserves lengths, angles, volumes and lengths, or that of rubber");
+                             "Energy: preserves lengths, angles, volumes, or models rubber");
     add_refine(app, o.refine, o.refined_map,
-               "Split elements where it is proved that there is no valid shape otherwise; the "
-               "output then has more vertices, the given ones first");
+               "Split elements if it is proved that the mesh admits no valid shape; the output "
+               "then has more vertices, the original ones first");
     app.add_option("--thickness", o.thickness,
-                   "Thickness of a surface in space (.obj .off .ply .stl), in its lengths: thick "
-                   "ones arch, thin ones crease. Default: its mean edge")
+                   "Thickness of a surface in space (.obj .off .ply .stl), in its units: thick "
+                   "surfaces arch, thin ones crease. Default: the mean edge")
         .type_name("H")
         .check(number_that([](double x) { return x > 0; }, "must be positive"));
 }
@@ -91,11 +88,12 @@ void declare_smooth(const subcommand& app, shape_options& o)
         {{"sliding", smooth_boundary::sliding}, {"fixed", smooth_boundary::fixed}, {"free", smooth_boundary::free}},
         "Treatment of the boundary");
     add_choice<bool>(app, "--interfaces", o.free_interfaces, {{"kept", false}, {"free", true}},
-                     "Treatment of inner faces between regions or with a label: kept ones slide "
-                     "within their flat parts, as do pieces of the boundary");
-    app.add_option("--worst", o.worst_exponent, "Exponent of the energy: 1 improves the mean, more the worst elements")
+                     "Treatment of inner faces between regions or with a label: kept faces slide "
+                     "within flat parts, like the boundary");
+    app.add_option("--exponent", o.worst_exponent, "Exponent of the energy: 1 improves the mean, more the worst elements")
         .type_name("1..8")
         .check_range(1, 8);
+    app.rename("--worst", "--exponent");
 }
 
 bool names_surface(const std::string& path)
@@ -111,8 +109,8 @@ void check(const shape_options& o)
 
 std::string kept_interfaces_note(std::uint64_t vertices)
 {
-    return count(vertices, "vertex inside keeps to an interface", "vertices inside keep to interfaces") +
-           " between regions, or to labelled faces; --interfaces free lets them go";
+    return count(vertices, "vertex inside stays on an interface", "vertices inside stay on interfaces") +
+           " between regions, or on labelled faces; --interfaces free releases them";
 }
 
 any_energy energy_of(shape_energy choice)

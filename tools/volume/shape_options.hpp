@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <taut/impl/map/smooth.hpp>
+#include <taut/impl/core/map/smooth.hpp>
+#include <taut/smooth.hpp>
 
 #include "shared/options.hpp"
 
@@ -26,7 +27,7 @@ enum class shape_energy
 /// Options of `taut deform` and `taut smooth`.
 struct shape_options
 {
-    std::string input, output, stats, picture, cut, device, progress;
+    std::string input, output, stats, picture, clip, device, progress;
     double time_limit = std::numeric_limits<double>::infinity();
     std::optional<double> tolerance; ///< relative gradient; none: as the library has it
     bool quiet = false, smoothing = false;
@@ -50,6 +51,9 @@ struct shape_options
 inline constexpr const char* nothing_held =
     "nothing is fixed or moved, so the mesh takes its rest shape; use --pins, --fix "
     "or --move";
+
+/// The end of a note on a file of pins.
+inline constexpr const char* no_pins = ": no pins in it";
 
 /// A note of what smoothing keeps inside.
 std::string kept_interfaces_note(std::uint64_t vertices);

@@ -6,7 +6,7 @@
 namespace taut::tools
 {
 
-nlohmann::ordered_json shapes_json(const impl::shape_quality& q)
+nlohmann::ordered_json shapes_json(const shape_quality& q)
 {
     return {{"mean_ratio", {{"worst", q.worst.mean_ratio}, {"mean", q.mean_ratio}}},
             {"scaled_jacobian", {{"worst", q.worst.scaled_jacobian}, {"mean", q.scaled_jacobian}}},
@@ -34,7 +34,7 @@ std::string insides_text(const volume_state& state)
     return text + ", by Bezier bounds";
 }
 
-std::string shapes_text(const impl::shape_quality& q)
+std::string shapes_text(const shape_quality& q)
 {
     return "mean ratio " + number(q.worst.mean_ratio) + " worst, " + number(q.mean_ratio) + " mean; angles " +
            number(q.worst.min_angle) + " to " + number(q.worst.max_angle) + " degrees";

@@ -10,7 +10,7 @@
 namespace taut::tools
 {
 
-nlohmann::ordered_json shapes_json(const impl::shape_quality& q);
+nlohmann::ordered_json shapes_json(const shape_quality& q);
 
 /// Cells that are not valid though their corners are positive.
 nlohmann::ordered_json insides_json(const volume_state& state);
@@ -19,6 +19,6 @@ nlohmann::ordered_json insides_json(const volume_state& state);
 std::string insides_text(const volume_state& state);
 
 /// A line for people.
-std::string shapes_text(const impl::shape_quality& q);
+std::string shapes_text(const shape_quality& q);
 
 } // namespace taut::tools

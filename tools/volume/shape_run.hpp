@@ -12,13 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/io/write_files.hpp>
-#include <taut/impl/io/write_volume.hpp>
-#include <taut/impl/map/deform_refined.hpp>
-#include <taut/impl/map/smooth.hpp>
+#include <taut/deform.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/core/map/smooth.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/smooth.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/volume_file.hpp>
 
 #include "shared/command_run.hpp"
 #include "shared/failure.hpp"
@@ -101,8 +102,13 @@ private:
         const auto& mesh = input_->simplices();
         pins_ = constraints<Element>(mesh);
         held_by_file held(input_->file());
-        for (const auto& [v, x] : targets.all()) pins_.pin(v, held(v, vec<D>(x)));
-        if (!options_.pins.empty()) pins_.add(held(io::read_pins<D>(options_.pins, mesh.vertex_count())));
+        targets.pin(pins_, held);
+        if (!options_.pins.empty())
+        {
+            auto read = input_->read_pins(options_.pins);
+            if (read.empty()) add_note(options_.pins + no_pins);
+            pins_.add(held(std::move(read)));
+        }
         report_.pin_rounding = held.largest();
         add_note(held.note());
         report_.pins = pins_.pins().size();
@@ -281,7 +287,7 @@ private:
         auto files = io::impl::volume_outputs(options_.output, input_->file(), points_);
         if (!options_.refined_map.empty())
             files.push_back({options_.refined_map, [&](io::atomic_file& file) { file.write(table_of_parts(parts_)); }});
-        drawing_options drawing{options_.picture, options_.cut, options_.smoothing};
+        drawing_options drawing{options_.picture, options_.clip, options_.smoothing};
         if (drawn(drawing.path, report_.run.notes))
             files.push_back({drawing.path, [&](io::atomic_file& file) { file.write(picture(drawing)); }});
         command_.write(std::move(files), report_, options_,

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include <taut/impl/exact/cell_validity.hpp>
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/volume_file.hpp>
 
 #include "shared/failure.hpp"
 #include "shared/outputs.hpp"
@@ -140,7 +140,7 @@ void judge_insides(const io::volume_file& file, std::span<const vec3> x, volume_
 
 std::string turned_note(const io::volume_file& file)
 {
-    return io::impl::describe_turned(file) + "; read turned over, and written as the file has it";
+    return io::impl::describe_turned(file) + "; read with reversed orientation, and written in the order of the file";
 }
 
 std::string count_cells(const io::volume_file& file, int dimension)

@@ -9,11 +9,13 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/io/write_volume.hpp>
-#include <taut/impl/measure/shape_quality.hpp>
-#include <taut/impl/measure/singular_values.hpp>
-#include <taut/impl/mesh/ideal.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/measure/shape_quality.hpp>
+#include <taut/impl/core/measure/singular_values.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/quality.hpp>
+#include <taut/surface_file.hpp>
 
 namespace taut::tools
 {
@@ -41,7 +43,7 @@ struct volume_state
     certificate simplices;                       ///< of the corners of all cells, or of these themselves
     std::vector<idx> inverted;                   ///< cells with a corner that is not positive
     std::vector<idx> negative_inside, undecided; ///< cells with positive corners that Bezier bounds do not find valid
-    impl::shape_quality shapes;
+    shape_quality shapes;
 };
 
 /// Fills in negative_inside and undecided, by validity_of_cell(). x: one per point.
@@ -69,6 +71,12 @@ public:
 
     /// As untangle_problem and others want them.
     std::vector<idx> owners() const { return parts_.overlapping ? parts_.cells : std::vector<idx>(); }
+
+    /// Pins and springs of its vertices in a file, as io::read_pins() has them. Throws io_error.
+    std::vector<io::pin<D>> read_pins(const std::string& path) const
+    {
+        return io::read_pins<D>(path, simplices().vertex_count(), file_.points.front().z);
+    }
 
     /// Positions of the vertices in the file.
     map points() const { return {file_.points.begin(), file_.points.end()}; }

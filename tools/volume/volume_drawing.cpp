@@ -8,14 +8,14 @@
 #include <picture/layout_svg.hpp>
 #include <picture/side_by_side_svg.hpp>
 #include <picture/volume_picture.hpp>
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/mesh/cell_corners.hpp>
+#include <taut/impl/core/mesh/cell_corners.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
 
 #include "shared/failure.hpp"
 #include "shared/outputs.hpp"
 #include "shared/png.hpp"
 #include "shared/text_table.hpp"
-#include "volume/cut_plane.hpp"
+#include "volume/clip_plane.hpp"
 
 namespace taut::tools
 {
@@ -47,7 +47,7 @@ std::string note_of(const io::volume_file& file, const drawn_state& state)
 
 /// Cells that the plane leaves, by their centres.
 std::vector<char> kept_cells(const io::volume_file& file, std::span<const vec3> points,
-                             const std::optional<cut_plane>& cut)
+                             const std::optional<clip_plane>& cut)
 {
     std::vector<char> kept;
     io::impl::for_each_cell(file, 3,
@@ -67,7 +67,7 @@ std::string draw_volumes(const io::volume_file& file, const std::vector<drawn_st
     const auto& places = !file.rest.empty() ? file.rest
                          : options.by_shape ? states.back().points
                                             : states.front().points;
-    const auto cut = parse_cut(options.cut, places);
+    const auto cut = parse_clip(options.clip, places);
     const auto kept = kept_cells(file, places, cut);
     const auto sides = file.faces();
     const auto is_kept = [&](std::size_t side) { return kept[static_cast<std::size_t>(sides.faces[side].cell)] != 0; };
@@ -147,12 +147,12 @@ std::string draw_layouts(const io::volume_file& file, const std::vector<drawn_st
 
 void require_drawable(const io::volume_file& file, const drawing_options& options)
 {
-    if (options.path.empty() && !options.cut.empty()) throw usage_error("--cut is of --picture; name one");
-    if (file.dimension == 2 && !options.cut.empty())
-        throw usage_error("--cut shows the inside of volumes, and this mesh is planar; leave it out");
+    if (options.path.empty() && !options.clip.empty()) throw usage_error("--clip needs --picture; name one");
+    if (file.dimension == 2 && !options.clip.empty())
+        throw usage_error("--clip shows the inside of volumes, and this mesh is planar; leave it out");
     if (file.dimension == 3 && extension(options.path) == ".svg")
         throw usage_error("--picture " + options.path + ": pictures of volumes are PNG; name it .png");
-    parse_cut(options.cut, file.points);
+    parse_clip(options.clip, file.points);
 }
 
 std::string draw_states(const io::volume_file& file, const std::vector<drawn_state>& states,

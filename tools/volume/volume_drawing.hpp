@@ -22,7 +22,7 @@ struct drawn_state
 struct drawing_options
 {
     std::string path;      ///< whose extension says what it is
-    std::string cut;       ///< as parse_cut() takes it
+    std::string clip;      ///< as parse_clip() takes it
     bool by_shape = false; ///< distortion is 1 / mean ratio
 };
 

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <utility>
 
-#include <taut/impl/io/make_untangle_problem.hpp>
-#include <taut/impl/mesh/cell_corners.hpp>
+#include <taut/impl/core/mesh/cell_corners.hpp>
+#include <taut/volume_file.hpp>
 
 #include "untangle/untangle_report.hpp"
 #include "volume/group_targets.hpp"
@@ -25,15 +25,15 @@ untangle_problem<Element> problem_of(const volume_case<Element>& input, const un
     constraints<Element> pins(m);
     group_targets groups(input.file());
     for (const auto& name : options.fixed) groups.fix(name);
-    for (const auto& [v, place] : groups.all()) pins.pin(v, vec<Element::dimension>(place));
     held_by_file held(input.file());
-    if (!options.pins.empty()) pins.add(held(io::read_pins<Element::dimension>(options.pins, m.vertex_count())));
+    groups.pin(pins, held);
+    if (!options.pins.empty()) pins.add(held(input.read_pins(options.pins)));
     report.pin_rounding = held.largest();
     if (!input.file().turned.empty()) report.notes.push_back(turned_note(input.file()));
     if (auto note = held.note(); !note.empty()) report.notes.push_back(std::move(note));
     if (!options.pins.empty() && pins.pins().size() == groups.all().size() && pins.springs().empty())
-        report.notes.push_back(options.pins + ": no pins in it beyond those of --fix");
-    if (!pins.springs().empty()) report.notes.push_back("springs take no part in untangling");
+        report.notes.push_back(options.pins + ": has no pins besides --fix");
+    if (!pins.springs().empty()) report.notes.push_back("untangling ignores springs");
     const bool named = !options.fixed.empty() || !options.pins.empty();
     if (options.boundary == untangle_boundary::fixed || (options.boundary == untangle_boundary::automatic && !named))
         for (const auto& facet : impl::boundary_facets(m, input.owners()))

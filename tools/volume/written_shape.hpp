@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include <taut/impl/core/single.hpp>
-#include <taut/impl/exact/mend_rounding.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/measure/describe_defects.hpp>
-#include <taut/impl/mesh/describe.hpp>
+#include <taut/impl/core/core/single.hpp>
+#include <taut/impl/core/exact/mend_rounding.hpp>
+#include <taut/impl/core/measure/describe_defects.hpp>
+#include <taut/impl/core/mesh/describe.hpp>
+#include <taut/surface_file.hpp>
 
 #include "shared/failure.hpp"
 #include "shared/text_table.hpp"
@@ -124,7 +124,7 @@ public:
     {
         if (vertices_.empty()) return {};
         return impl::list_ids("pin", "pins", vertices_) + (vertices_.size() == 1 ? " is" : " are") +
-               " rounded to the single precision of the file, by " + number(largest_) + " at most, and fixed there";
+               " rounded to the single precision of the file, by at most " + number(largest_) + ", and fixed there";
     }
 
 private:

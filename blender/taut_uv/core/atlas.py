@@ -51,6 +51,13 @@ def atlas(
     some = np.flatnonzero(s.chosen[s.triangle_face])
     if len(some) == 0:
         raise Trouble("no face is selected; select some, or all")
+    if 0 < max_distortion <= 4:
+        raise Trouble(f"Max Distortion is {max_distortion:.4g}, but must be above 4, which is none; 0: the usual one")
+    if charts == "keep":
+        unused = {"Prefer": prefer != "seams", "Keep Seams": keep_seams, "Symmetric": symmetric}
+        prefer, symmetric = "seams", False
+        unused["Max Distortion"], max_distortion = max_distortion > 0, 0
+        result.notes += [f"{name} has no effect on charts that are kept" for name, given in unused.items() if given]
     pinned = pinned_triangles(s, some)
     made = _made(
         taut,
@@ -123,6 +130,7 @@ def _made(taut, s, result, some, pinned, clock, *, charts, keep_seams, symmetric
     if pinned.any():
         given.update(pinned=pinned, uv=s.uv[corners])
     used = np.unique(F)
+    given["bodies"] = np.searchsorted(s.first_vertex, used, side="right")  # copies at one place are no duplicates
     number = np.zeros(len(s.V), np.int64)
     number[used] = np.arange(len(used))
     if "seams" in given:

@@ -19,6 +19,8 @@ def check(taut, s: Surface, *, flips: bool = True, overlaps: bool = True, time_l
     """
     if not s.chosen.any():
         raise Trouble("no face is selected; select those to be looked at, or all")
+    if not (flips or overlaps):
+        raise Trouble("there is nothing to look for; turn on Flipped, Overlapping, or both")
     result = Result.of(s)
     result.selected = np.zeros(s.faces, bool)
     found, mirrored = flipped_faces(s)
@@ -28,9 +30,9 @@ def check(taut, s: Surface, *, flips: bool = True, overlaps: bool = True, time_l
     if mirrored:
         result.notes.append(f"{mirrored} mirrored {'island' if mirrored == 1 else 'islands'}")
     if overlaps:
-        pairs = overlapping_faces(s)
-        result.selected[pairs.reshape(-1)] = True
-        result.numbers["overlapping"] = len(np.unique(pairs))
+        found = overlapping_faces(s)
+        result.selected[found] = True
+        result.numbers["overlapping"] = len(found)
     return result
 
 
@@ -51,7 +53,7 @@ def flipped_faces(s: Surface) -> tuple[np.ndarray, int]:
 
 
 def overlapping_faces(s: Surface) -> np.ndarray:
-    """Pairs of faces whose triangles have an area in common in the plane."""
+    """Faces with a triangle that has an area in common with one of another face in the plane."""
     triangles = np.flatnonzero(s.chosen[s.triangle_face])
     t = s.uv[s.triangles[triangles]]
     good = np.isfinite(t).all((1, 2))
@@ -59,46 +61,72 @@ def overlapping_faces(s: Surface) -> np.ndarray:
     turned = orientation(t.reshape(-1, 2), np.arange(3 * len(t)).reshape(-1, 3))
     t[turned < 0] = t[turned < 0][:, ::-1]
     solid = turned != 0
-    triangles, t = triangles[solid], t[solid]
-    if len(t) == 0:
-        return np.zeros((0, 2), np.int64)
-    a, b = candidate_pairs(t)
-    hit = np.zeros(len(a), bool)
-    for i in range(0, len(a), 1 << 20):
-        hit[i : i + (1 << 20)] = _have_area_in_common(t[a[i : i + (1 << 20)]], t[b[i : i + (1 << 20)]])
-    faces = np.sort(np.c_[s.triangle_face[triangles[a[hit]]], s.triangle_face[triangles[b[hit]]]], 1)
-    return np.unique(faces[faces[:, 0] != faces[:, 1]], axis=0)
+    t, face = t[solid], s.triangle_face[triangles[solid]]
+    found = np.zeros(s.faces, bool)
+    for a, b in candidate_pairs(t, face, found):
+        hit = _have_area_in_common(t[a], t[b])
+        found[face[a[hit]]] = found[face[b[hit]]] = True
+    return np.flatnonzero(found)
 
 
-def candidate_pairs(t: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs of triangles whose boxes meet, each once: by sorting along u in rows of boxes of like height."""
+#: Pairs that are looked at together.
+_TOGETHER = 1 << 19
+
+
+def candidate_pairs(t: np.ndarray, face: np.ndarray, found: np.ndarray):
+    """Pairs of triangles of different faces whose boxes meet, some at a time: all but those of two faces that are found
+    by then. So faces that all lie on each other take no more than those that lie apart.
+
+    found : (f,) bool, which the caller sets
+    """
     low, high = t.min(1), t.max(1)
-    n = len(t)
-    size = np.maximum(np.median(high - low), 1e-12) * 2
-    # Cells of a grid that boxes cover; a pair is of the cell with the lower corner of its common box.
-    first, last = np.floor(low / size).astype(np.int64), np.floor(high / size).astype(np.int64)
-    span = last - first + 1
-    if span.prod(1).sum() > 64 * n + 10**6:  # few large ones among many small
-        size = np.maximum(np.percentile(high - low, 99), 1e-12)
-        first, last = np.floor(low / size).astype(np.int64), np.floor(high / size).astype(np.int64)
-        span = last - first + 1
-    count = span.prod(1)
-    of = np.repeat(np.arange(n), count)
-    k = np.arange(len(of)) - np.repeat(np.r_[0, np.cumsum(count)[:-1]], count)
-    cell = first[of] + np.c_[k % span[of, 0], k // span[of, 0]]
-    order = np.lexsort((cell[:, 1], cell[:, 0]))
-    of, cell = of[order], cell[order]
-    start = np.flatnonzero(np.r_[True, (cell[1:] != cell[:-1]).any(1)])
-    length = np.diff(np.r_[start, len(of)])
-    end = np.repeat(start + length, length)
-    later = end - np.arange(len(of)) - 1
-    i = np.repeat(np.arange(len(of)), later)
-    j = i + 1 + np.arange(len(i)) - np.repeat(np.r_[0, np.cumsum(later)[:-1]], later)
-    a, b, at = of[i], of[j], cell[i]
-    own = (np.maximum(first[a], first[b]) == at).all(1)
-    a, b = a[own], b[own]
-    meet = (low[a] < high[b]).all(1) & (low[b] < high[a]).all(1)
-    return a[meet], b[meet]
+    level = np.frexp((high - low).max(1))[1]  # boxes are smaller than squares of a side of 2^level: 4 of these, at most
+    for at in np.unique(level):
+        many, few = _squares(low, high, level <= at, at), _squares(low, high, level == at, at)
+        for own, others in _joined(many, few, face, found):
+            apart = (face[own] != face[others]) & ~(found[face[own]] & found[face[others]])
+            own, others = own[apart], others[apart]
+            meet = (low[own] < high[others]).all(1) & (low[others] < high[own]).all(1)
+            yield own[meet], others[meet]
+
+
+def _squares(low: np.ndarray, high: np.ndarray, some: np.ndarray, level: int) -> tuple[np.ndarray, np.ndarray]:
+    """The squares of a grid that boxes meet, each as a complex number, in order, and the triangle of each box."""
+    triangle = np.flatnonzero(some)
+    first, last = (np.floor(np.ldexp(corner[triangle], -level)) for corner in (low, high))
+    sides = [(i, j) for i in (0, 1) for j in (0, 1)]
+    squares = [np.where(i, last[:, 0], first[:, 0]) + 1j * np.where(j, last[:, 1], first[:, 1]) for i, j in sides]
+    new = [((first[:, 0] < last[:, 0]) | (i == 0)) & ((first[:, 1] < last[:, 1]) | (j == 0)) for i, j in sides]
+    square, of = np.concatenate([a[k] for a, k in zip(squares, new)]), np.concatenate([triangle[k] for k in new])
+    order = np.argsort(square, kind="stable")
+    return square[order], of[order]
+
+
+def _joined(many, few, face: np.ndarray, found: np.ndarray):
+    """Pairs of triangles with a square in common: some of each where there are many, which find most that lie on each
+    other; then those of triangles that are not found."""
+    (square, own), (other_square, other) = many, few
+    begin, end = (np.searchsorted(other_square, square, side) for side in ("left", "right"))
+    crowded = end - begin > 64
+    for k in range(8):
+        there = np.flatnonzero(crowded & ~found[face[own]])
+        for i in range(0, len(there), _TOGETHER):
+            yield own[there[i : i + _TOGETHER]], other[begin[there[i : i + _TOGETHER]] + k]
+    left = ~found[face[own]]
+    yield from _expanded(own[left], begin[left], end[left], other)
+    left = ~found[face[other]]
+    begin, end = (np.searchsorted(square, other_square[left], side) for side in ("left", "right"))
+    yield from _expanded(other[left], begin, end, own)
+
+
+def _expanded(own: np.ndarray, begin: np.ndarray, end: np.ndarray, other: np.ndarray):
+    """Each of `own` with others from begin to end."""
+    after = np.cumsum(end - begin)
+    total = int(after[-1]) if len(after) else 0
+    for i in range(0, total, _TOGETHER):
+        pair = np.arange(i, min(i + _TOGETHER, total))
+        of = np.searchsorted(after, pair, "right")
+        yield own[of], other[end[of] - (after[of] - pair)]
 
 
 def _have_area_in_common(p: np.ndarray, q: np.ndarray) -> np.ndarray:

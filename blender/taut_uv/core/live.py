@@ -18,7 +18,7 @@ class _Held:
     def __init__(self, taut, s: Surface, island: Island, grabbed: np.ndarray, scale: float) -> None:
         self._taut, self._surface = taut, s
         self.island, self.grabbed = island, np.flatnonzero(grabbed)
-        self.before = island.of_corners(s.uv)
+        self.before = self._shown = island.of_corners(s.uv)
         if not scale > 0 or not np.isfinite(self.before).all():
             raise Trouble(about_faces(s, island.faces, "UVs without an area; unwrap them first"))
         self._mirror = signed_areas(self.before, island.F).sum() < 0
@@ -60,12 +60,19 @@ class _Held:
             reason = explained(e, self._surface, self.island).message
         return float(np.linalg.norm(self.x[self.grabbed] - target, axis=1).max()), reason
 
-    def rounded(self) -> tuple[np.ndarray, int]:
-        """The map as single precision holds it, and how many triangles rounding flattens."""
+    def rounded(self) -> np.ndarray:
+        """The map as single precision holds it; the last one that it held where rounding would flatten a triangle."""
         fixed = np.zeros(self.x.shape, bool)
         fixed[self.pinned] = True
         y, flat = in_single(self.x, self.island.F, fixed)
-        return (mirrored(y) if self._mirror else y), len(flat)
+        self.coarse = len(flat) > 0
+        if not self.coarse:
+            self._shown = mirrored(y) if self._mirror else y
+        return self._shown
+
+    def behind(self, shift: np.ndarray) -> float:
+        """How far what is shown of what is grabbed is from there."""
+        return float(np.linalg.norm(self._shown[self.grabbed] - self.before[self.grabbed] - shift, axis=1).max())
 
     def close(self) -> None:
         self._session.close()
@@ -103,14 +110,19 @@ class Drag:
         for held in self._held:
             distance, reason = held.frame(shift, share)
             self.distance, self.reason = max(self.distance, distance), self.reason or reason
-        return self.coordinates()
+        shown = self.coordinates()
+        for held in self._held:
+            if held.coarse:
+                self.distance = max(self.distance, held.behind(shift))
+                self.reason = self.reason or "too small for the numbers of UV maps; scale the island up"
+        return shown
 
     def finish(self, shift, seconds: float = 2.0) -> np.ndarray:
         """The last frame, with more time."""
         return self.frame(shift, seconds)
 
     def coordinates(self) -> np.ndarray:
-        return np.concatenate([h.rounded()[0][h.island.local] for h in self._held])
+        return np.concatenate([h.rounded()[h.island.local] for h in self._held])
 
     def before(self) -> np.ndarray:
         """The coordinates of the beginning, bit for bit."""

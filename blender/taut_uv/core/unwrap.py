@@ -42,6 +42,8 @@ def unwrap(
     islands = islands_of(s)
     if not islands:
         raise Trouble("no face is selected; select some, or all")
+    if not (pack or rotate):
+        result.notes.append("Rotate has no effect without Pack")
     placed, loose = [], []
     for k, island in enumerate(islands):
         tell(f"island {k + 1} of {len(islands)}")

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The interface of the package xatlas: `import taut.compat.xatlas as xatlas` is the whole migration.
 
-Names, arguments, shapes and types are those of xatlas 0.0.11. Charts and packing are taut's, so counts differ, and
-options that only say how xatlas finds its charts have no effect. Long calls can be interrupted, and an atlas is
-certified: no triangle is flipped, no two overlap.
+Names, arguments, shapes and types are those of xatlas 0.0.11. Charts and packing are taut's, so counts differ, normals
+have no effect, nor options that only say how xatlas finds its charts, of which a warning tells. Long calls can be
+interrupted, and an atlas is certified: no triangle is flipped, no two overlap. Where xatlas makes charts smaller that
+are larger than a page, taut cuts them.
 
 >>> import numpy as np
 >>> import taut.compat.xatlas as xatlas
@@ -16,13 +17,16 @@ certified: no triangle is flipped, no two overlap.
 from __future__ import annotations
 
 import enum
-from dataclasses import dataclass
+import warnings
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .._atlas import atlas as _make
+from .._atlas import _split
+from .._files import write_bytes
 from .._results import Atlas as _Made
 
 Uints = npt.NDArray[np.uint32]
@@ -74,7 +78,9 @@ class ChartOptions:
 
 @dataclass
 class PackOptions:
-    """How charts are packed, in squares of `resolution` texels, 1024 where neither it nor `texels_per_unit` is given."""
+    """How charts are packed: at `texels_per_unit`, if given, on as many pages of `resolution` texels as that takes, or
+    on one of any size; else on one page of `resolution`, or 1024, texels, which they fill. Charts larger than
+    `max_chart_size` texels become smaller."""
 
     max_chart_size: int = 0
     padding: int = 0
@@ -92,10 +98,25 @@ class PackOptions:
             "resolution": self.resolution or 1024,
             "padding": self.padding + (1 if self.bilinear else 0),
             "rotate": self.rotate_charts,
+            "align": 4 if self.blockAlign else 1,
         }
 
 
+#: Options that say how xatlas goes about it, and nothing here.
+_UNUSED = ("max_chart_area", "max_boundary_length", "normal_deviation_weight", "roundness_weight",
+           "straightness_weight", "normal_seam_weight", "texture_seam_weight", "max_iterations", "bruteForce",
+           "rotate_charts_to_axis")
+
+
+def _tell_unused(*given: Any) -> None:
+    names = [f.name for g in given for f in fields(g) if f.name in _UNUSED and getattr(g, f.name) != f.default]
+    if names:
+        warnings.warn(f"{', '.join(names)}: no effect in taut", stacklevel=3)
+
+
 def _rows(what: str, value: Any, columns: int, dtype: Any, count: int | None = None) -> Any:
+    if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+        raise ValueError(f"{what} array has masked numbers; fill them in, or leave them out.")
     a = np.asarray(value)
     if a.ndim != 2 or a.shape[1] != columns:
         raise ValueError(f"{what} array expected to be Nx{columns}.")
@@ -103,6 +124,12 @@ def _rows(what: str, value: Any, columns: int, dtype: Any, count: int | None = N
         raise ValueError(
             f"{what} array has invalid number of elements in the first dimension (expected {count}, got {len(a)})"
         )
+    if np.issubdtype(dtype, np.integer) and a.size:
+        with np.errstate(invalid="ignore"):
+            if a.dtype.kind not in "iuf" or (a != np.floor(a)).any():
+                raise ValueError(f"{what} array has numbers that are no indices.")
+    elif a.dtype.kind == "c":
+        raise ValueError(f"{what} array has complex numbers.")
     return np.ascontiguousarray(a, dtype=dtype)
 
 
@@ -121,6 +148,7 @@ class Atlas:
     def __init__(self) -> None:
         self._inputs: list[_Input] = []
         self._made: list[_Made] = []
+        self._whole: _Made | None = None
         self._resolution = 0
         self._images: list[Any] = []
 
@@ -150,8 +178,10 @@ class Atlas:
             raise RuntimeError("Adding mesh failed: Invalid index count")
         if mesh.faces.min() < 0 or mesh.faces.max() >= len(mesh.points):
             raise RuntimeError("Adding mesh failed: Index out of range")
+        if any(other.pack_only != mesh.pack_only for other in self._inputs):
+            raise RuntimeError("Adding mesh failed: Meshes and UV meshes cannot be added to the same atlas.")
         self._inputs.append(mesh)
-        self._made = []
+        self._made, self._whole, self._images = [], None, []
 
     def generate(
         self, chart_options: ChartOptions | None = None, pack_options: PackOptions | None = None, verbose: bool = False
@@ -161,39 +191,86 @@ class Atlas:
             print("Generate: No meshes. Call AddMesh or AddUvMesh first.")
             return
         charts, packing = chart_options or ChartOptions(), pack_options or PackOptions()
+        _tell_unused(charts, packing)
         options = {**charts._options(), **packing._options(), "single": True, "progress": verbose or None}
-        self._resolution = options["resolution"]
-        whole = self._call(charts, options)
-        if packing.texels_per_unit > 0 and packing.resolution == 0:
-            self._resolution = min(65536, max(8, int(np.ceil(packing.texels_per_unit / self._scale([whole])))))
-            whole = self._call(charts, {**options, "resolution": self._resolution})
-        self._made = self._parts(whole)
-        self._images = [self._draw(whole)] if packing.create_image else []
+        density = packing.texels_per_unit
+        pages = self._pages(density, packing.resolution, options["padding"])
+        if packing.max_chart_size > 0:
+            whole = self._within(packing.max_chart_size, density, self._call(charts, options), {**options, **pages})
+        else:
+            whole = self._call(charts, {**options, **pages})
+        self._resolution = whole.report["resolution"]
+        self._whole = whole = self._on_pages(whole)
+        self._made = _split(whole, [len(i.points) for i in self._inputs], [len(i.faces) for i in self._inputs])
+        self._images = [self._draw(whole, k) for k in range(self.atlas_count)] if packing.create_image else []
+
+    def _pages(self, density: float, resolution: int, padding: int) -> dict[str, Any]:
+        """Pages for a density in texels, if there is one."""
+        if density <= 0:
+            return {}
+        side = density * float(np.sqrt(sum(float(_areas(i.points, i.faces).sum()) for i in self._inputs)))
+        if resolution > 0:
+            return {"texels_per_unit": density, "tiles": 1000}
+        start = int(np.clip(1.25 * side + 4 * padding, 64, 65536))
+        return {"texels_per_unit": density, "resolution": start, "max_resolution": 65536}
 
     def _call(self, charts: ChartOptions, options: dict[str, Any]) -> _Made:
-        first = np.cumsum([0] + [len(i.points) for i in self._inputs])
-        width = max(i.points.shape[1] for i in self._inputs)
-        points = np.concatenate([np.pad(i.points, ((0, 0), (0, width - i.points.shape[1]))) for i in self._inputs])
-        faces = np.concatenate([i.faces + f for i, f in zip(self._inputs, first)])
-        if all(i.pack_only or (charts.use_input_mesh_uvs and i.uvs is not None) for i in self._inputs):
-            uv = np.concatenate([i.uvs for i in self._inputs])
-            options = {**options, "charts": "keep", "uv": uv, "repair": False}
-            if any(i.materials is not None for i in self._inputs):
-                options["parts"] = np.concatenate(
-                    [i.materials if i.materials is not None else np.zeros(len(i.faces)) for i in self._inputs]
-                ).astype(np.int64)
-        return _make(points, faces, **options)
+        """Charts that are given are packed, others are made, each mesh by its own."""
+        given = [i.pack_only or charts.use_input_mesh_uvs and i.uvs is not None for i in self._inputs]
+        if not any(given):
+            points, faces = _joined(self._inputs)
+            made: _Made = _make(points, faces, bodies=self._bodies(), **options)
+            return made
+        corners: list[Any] = []
+        parts: list[Any] = []
+        for mesh, known in zip(self._inputs, given):
+            if known:
+                uv = mesh.uvs[mesh.faces]
+                of = mesh.materials if mesh.materials is not None else np.zeros(len(mesh.faces))
+                turned = np.sign((uv[:, 1, 0] - uv[:, 0, 0]) * (uv[:, 2, 1] - uv[:, 0, 1])
+                                 - (uv[:, 1, 1] - uv[:, 0, 1]) * (uv[:, 2, 0] - uv[:, 0, 0]))
+                part = np.unique(np.c_[of, turned], axis=0, return_inverse=True)[1].reshape(-1)
+            else:
+                alone = _make(mesh.points, mesh.faces, **options)
+                uv, part = alone.corner_uv, alone.chart
+            corners.append(uv)
+            parts.append(part + (parts[-1].max() + 1 if parts else 0))
+        return self._pack(np.concatenate(corners), np.concatenate(parts), options)
 
-    def _scale(self, parts: list[_Made]) -> float:
+    def _pack(self, uv: Any, parts: Any, options: dict[str, Any]) -> _Made:
+        """Charts as they lie in `uv`, packed. Where vertices are in space, what no surface can have is left out."""
+        points, faces = _joined(self._inputs)
+        made: _Made = _make(points, faces, **{**options, "charts": "pack", "uv": uv, "parts": parts,
+                                              "bodies": self._bodies(), "repair": not self._inputs[0].pack_only})
+        return made
+
+    def _bodies(self) -> Any:
+        return np.repeat(np.arange(len(self._inputs)), [len(i.points) for i in self._inputs])
+
+    def _within(self, most: int, density: float, whole: _Made, options: dict[str, Any]) -> _Made:
+        """The charts of an atlas, of at most so many texels along a side, packed at a density, or at that which it has."""
+        known = whole.chart >= 0
+        low, high = np.full((whole.charts, 2), np.inf), np.full((whole.charts, 2), -np.inf)
+        np.minimum.at(low, whole.chart[known], whole.corner_uv[known].min(1))
+        np.maximum.at(high, whole.chart[known], whole.corner_uv[known].max(1))
+        scale = self._scale(whole)
+        density = density or whole.report["resolution"] * scale
+        factor = np.minimum(1, most / np.maximum((high - low).max(1) / scale * density, 1e-300))
+        return self._pack(whole.corner_uv, whole.chart, {
+            **options, "rotate": False, "densities": np.append(factor, 1.0)[whole.chart], "texels_per_unit": density})
+
+    @staticmethod
+    def _on_pages(whole: _Made) -> _Made:
+        """With coordinates within each page. Exact: they are singles, and pages whole numbers."""
+        page = np.zeros(len(whole.uv), dtype=np.int64)
+        page[whole.faces.reshape(-1)] = np.repeat(np.maximum(whole.tile, 0), 3)
+        return replace(whole, uv=whole.uv - np.c_[page % 10, page // 10])
+
+    def _scale(self, whole: _Made) -> float:
         """Lengths in the atlas by lengths of the meshes."""
-        flat = sum(float(_areas(m.uv, m.faces).sum()) for m in parts)
+        flat = float(_areas(whole.uv, whole.faces).sum())
         rest = sum(float(_areas(i.points, i.faces).sum()) for i in self._inputs)
         return float(np.sqrt(flat / rest)) if rest > 0 else 1.0
-
-    def _parts(self, whole: _Made) -> list[_Made]:
-        from .._atlas import _split
-
-        return _split(whole, [len(i.points) for i in self._inputs], [len(i.faces) for i in self._inputs])
 
     def _mesh(self, mesh_index: int) -> _Made:
         if not 0 <= mesh_index < len(self._made):
@@ -213,9 +290,10 @@ class Atlas:
     def get_mesh_vertex_assignment(self, mesh_index: int) -> tuple[Uints, Uints]:
         """Atlas and chart of each vertex."""
         made = self._mesh(mesh_index)
-        chart = np.zeros(len(made.uv), dtype=np.int64)
+        page, chart = np.zeros((2, len(made.uv)), dtype=np.int64)
+        page[made.faces.reshape(-1)] = np.repeat(np.maximum(made.tile, 0), 3)
         chart[made.faces.reshape(-1)] = np.repeat(self._local(made), 3)
-        return np.zeros(len(made.uv), dtype=np.uint32), chart.astype(np.uint32)
+        return page.astype(np.uint32), chart.astype(np.uint32)
 
     @staticmethod
     def _local(made: _Made) -> Any:
@@ -232,7 +310,7 @@ class Atlas:
             raise IndexError(f"Chart index {chart_index} out of bounds for mesh with {count} charts.")
         faces = np.flatnonzero(self._local(made) == chart_index).astype(np.uint32)
         materials = self._inputs[mesh_index].materials
-        return Chart(faces, 0, material=0 if materials is None else int(materials[faces[0]]))
+        return Chart(faces, max(int(made.tile[faces[0]]), 0), material=0 if materials is None else int(materials[faces[0]]))
 
     @property
     def mesh_count(self) -> int:
@@ -240,7 +318,7 @@ class Atlas:
 
     @property
     def atlas_count(self) -> int:
-        return 1 if self._made else 0
+        return int(self._whole.tile.max()) + 1 if self._whole is not None else 0
 
     @property
     def chart_count(self) -> int:
@@ -256,15 +334,16 @@ class Atlas:
 
     @property
     def texels_per_unit(self) -> float:
-        return self._resolution * self._scale(self._made) if self._made else 0.0
+        return self._resolution * self._scale(self._whole) if self._whole is not None else 0.0
 
     @property
     def utilization(self) -> float:
-        return float(self._made[0].utilization) if self._made else 0.0
+        return self.get_utilization(0) if self._made else 0.0
 
     def get_utilization(self, atlas_index: int) -> float:
         self._atlas(atlas_index)
-        return self.utilization
+        assert self._whole is not None
+        return float(_areas(self._whole.uv, self._whole.faces[self._whole.tile == atlas_index]).sum())
 
     @property
     def chart_image(self) -> npt.NDArray[np.uint8]:
@@ -281,12 +360,13 @@ class Atlas:
         if not 0 <= atlas_index < self.atlas_count:
             raise IndexError(f"Atlas index {atlas_index} out of bounds.")
 
-    def _draw(self, whole: _Made) -> Any:
-        """Charts in colours of their own: a texel is of the triangle that has its centre."""
+    def _draw(self, whole: _Made, page: int) -> Any:
+        """Charts of a page in colours of their own: a texel is of the triangle that has its centre."""
         n = self._resolution
         image = np.zeros((n, n, 3), dtype=np.uint8)
         colours = np.random.default_rng(1).integers(64, 256, (whole.charts + 1, 3), dtype=np.uint8)
-        for (a, b, c), chart in zip(whole.uv[whole.faces] * n, whole.chart):
+        own = whole.tile == page
+        for (a, b, c), chart in zip(whole.uv[whole.faces[own]] * n, whole.chart[own]):
             low = np.maximum(np.floor(np.minimum(np.minimum(a, b), c)).astype(int), 0)
             high = np.minimum(np.ceil(np.maximum(np.maximum(a, b), c)).astype(int), n)
             x, y = np.meshgrid(np.arange(low[0], high[0]) + 0.5, np.arange(low[1], high[1]) + 0.5)
@@ -295,6 +375,13 @@ class Atlas:
                 inside &= (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]) >= 0
             image[low[1] : high[1], low[0] : high[0]][inside] = colours[chart]
         return image
+
+
+def _joined(inputs: list[_Input]) -> tuple[Any, Any]:
+    """Meshes as one, one behind the other."""
+    first = np.cumsum([0] + [len(i.points) for i in inputs])
+    points = np.concatenate([np.pad(i.points, ((0, 0), (0, 3 - i.points.shape[1]))) for i in inputs])
+    return points, np.concatenate([i.faces + f for i, f in zip(inputs, first)])
 
 
 def _areas(points: Any, faces: Any) -> Any:
@@ -313,15 +400,21 @@ def parametrize(positions: Any, indices: Any, normals: Any = None, uvs: Any = No
 
 def export(path: Any, positions: Any, indices: Any = None, uvs: Any = None, normals: Any = None) -> None:
     """Writes an OBJ file."""
-    points = _rows("Position", positions, 3, np.float32)
+    with np.errstate(over="ignore"):  # is said of the array
+        points = _rows("Position", positions, 3, np.float32)
+        rows = [_rows(what, value, columns, np.float32, len(points))
+                for what, value, columns in (("Normal", normals, 3), ("UV", uvs, 2)) if value is not None]
+    if not all(np.isfinite(a).all() for a in (points, *rows)):
+        raise ValueError("Positions, normals and UVs must be finite, as float32, too.")
     lines = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in points]
     if normals is not None:
         lines += [f"vn {x:.9g} {y:.9g} {z:.9g}" for x, y, z in _rows("Normal", normals, 3, np.float32, len(points))]
     if uvs is not None:
         lines += [f"vt {u:.9g} {v:.9g}" for u, v in _rows("UV", uvs, 2, np.float32, len(points))]
     faces = np.arange(len(points)).reshape(-1, 3) if indices is None else _rows("Index", indices, 3, np.int64)
+    if faces.size and (faces.min() < 0 or faces.max() >= len(points)):
+        raise ValueError(f"Index array names {faces.min()} to {faces.max()}, but there are {len(points)} positions.")
     form = "{0}/{0}/{0}" if uvs is not None and normals is not None else "{0}/{0}" if uvs is not None \
         else "{0}//{0}" if normals is not None else "{0}"
     lines += ["f " + " ".join(form.format(v + 1) for v in face) for face in faces]
-    with open(path, "w", encoding="utf-8") as file:
-        file.write("\n".join(lines) + "\n")
+    write_bytes({path: ("\n".join(lines) + "\n").encode()})

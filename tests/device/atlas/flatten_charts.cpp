@@ -16,11 +16,11 @@
 #include <support/meshes.hpp>
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
-#include <taut/impl/atlas/chart_start.hpp>
-#include <taut/impl/atlas/flatten_charts.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/start/isometric_newton.hpp>
+#include <taut/certify.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/chart_start.hpp>
+#include <taut/impl/core/start/isometric_newton.hpp>
+#include <taut/parameterize.hpp>
 
 using namespace taut;
 using namespace taut::impl;

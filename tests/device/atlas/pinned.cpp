@@ -7,7 +7,7 @@
 
 #include <support/shared_context.hpp>
 
-#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/atlas.hpp>
 
 using namespace taut;
 

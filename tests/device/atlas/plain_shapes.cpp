@@ -11,7 +11,7 @@
 #include <support/closed_meshes.hpp>
 #include <support/shared_context.hpp>
 #include <support/strips.hpp>
-#include <taut/impl/atlas/make_atlas.hpp>
+#include <taut/atlas.hpp>
 
 using namespace taut;
 

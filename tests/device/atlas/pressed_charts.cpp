@@ -9,10 +9,10 @@
 #include <support/shared_context.hpp>
 #include <support/strips.hpp>
 
-#include <taut/impl/atlas/cutting/mend_charts.hpp>
-#include <taut/impl/atlas/make_atlas.hpp>
-#include <taut/impl/atlas/pressed_charts.hpp>
-#include <taut/impl/atlas/settled_charts.hpp>
+#include <taut/atlas.hpp>
+#include <taut/impl/charts/atlas/cutting/mend_charts.hpp>
+#include <taut/impl/charts/atlas/pressed_charts.hpp>
+#include <taut/impl/charts/atlas/settled_charts.hpp>
 
 using namespace taut;
 using namespace taut::impl;

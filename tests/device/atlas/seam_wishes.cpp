@@ -7,8 +7,8 @@
 
 #include <support/closed_meshes.hpp>
 #include <support/shared_context.hpp>
-#include <taut/impl/atlas/make_atlas.hpp>
-#include <taut/impl/atlas/seams/openness.hpp>
+#include <taut/atlas.hpp>
+#include <taut/impl/charts/atlas/seams/openness.hpp>
 
 using namespace taut;
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include <support/shared_context.hpp>
 #include <support/two_atlases.hpp>
-#include <taut/impl/bake/bake.hpp>
-#include <taut/impl/bake/compare_textures.hpp>
+#include <taut/bake.hpp>
+#include <taut/impl/charts/bake/bake.hpp>
 
 using namespace taut;
 using test::two_atlases;
@@ -49,7 +52,7 @@ double cross2(const vec2& a, const vec2& b)
 
 /// Value of the first triangle that is nearest to a texel's centre, in double; and how far it is.
 std::pair<std::array<double, 4>, double> on_host(const two_atlases& s, const texture& old, const texture& next, idx i,
-                                                 idx j)
+                                                 idx j, const bake_params& how = {})
 {
     const vec2 size(next.width, next.height), p(i + 0.5, j + 0.5);
     double best = std::numeric_limits<double>::infinity();
@@ -79,7 +82,7 @@ std::pair<std::array<double, 4>, double> on_host(const two_atlases& s, const tex
                 take(glm::length(a[k] + t * d), w);
             }
     }
-    return {old.sample(uv), best};
+    return {old.sample(uv, how.filter, how.wrap, how.wrap_v), best};
 }
 
 } // namespace
@@ -107,6 +110,74 @@ TEST_CASE("bake: texels are those of the host, in triangles and around them")
         }
     CHECK(inside > 60 * 44 / 2);
     CHECK(near > 100);
+}
+
+TEST_CASE("bake: textures go on along each side as they wrap")
+{
+    queue q(test::shared_context());
+    two_atlases s(6, true);
+    const auto old = s.old_texture(48, 40, 2, [](const vec2& x, int) { return smooth(x); });
+    for (auto& t : s.old_uv)
+        for (vec2& x : t) x = 3.7 * x - vec2(1.3, 1.6);
+    using enum texture::wrap;
+    for (const auto& [u, v] : std::vector<std::pair<texture::wrap, texture::wrap>>{
+             {repeat, clamp}, {clamp, mirror}, {mirror, repeat}, {mirror, mirror}})
+    {
+        const bake_params how{.width = 60, .height = 44, .wrap = u, .wrap_v = v, .gutter = 0};
+        const auto b = bake(q, old, s.old_uv, s.new_uv, how);
+        int inside = 0;
+        for (idx j = 0; j < b.image.height; ++j)
+            for (idx i = 0; i < b.image.width; ++i)
+            {
+                if (b.covered[static_cast<std::size_t>(j * b.image.width + i)] != 1) continue;
+                ++inside;
+                const auto value = on_host(s, old, b.image, i, j, how).first;
+                for (idx c = 0; c < 2; ++c)
+                    CHECK(b.image.at(i, j)[c] == doctest::Approx(value[static_cast<std::size_t>(c)]).epsilon(1e-3));
+            }
+        CHECK(inside > 60 * 44 / 2);
+    }
+}
+
+TEST_CASE("bake: numbers that stand for values are those values")
+{
+    queue q(test::shared_context());
+    const two_atlases s(6, true);
+    const idx width = 30, height = 20;
+    const auto number = [](idx i, idx j, idx c) { return static_cast<std::size_t>((7 * i + 3 * j + 5 * c) % 11); };
+    for (const idx channels : {1, 3, 4})
+        for (const int bytes : {1, 2})
+            for (const bool palette : {false, true})
+            {
+                impl::texture_rows rows{
+                    .width = width, .height = height, .channels = channels, .bytes = bytes, .palette = palette};
+                for (int n = 0; n < 11 * channels; ++n) rows.table.push_back(static_cast<float>(n * n % 17) / 17);
+                rows.read = [&](idx j, std::byte* to)
+                {
+                    for (idx k = 0; k < width * (palette ? 1 : channels); ++k)
+                    {
+                        const auto n = static_cast<unsigned short>(palette ? number(k, j, 0)
+                                                                           : number(k / channels, j, k % channels));
+                        if (bytes == 1)
+                            to[k] = static_cast<std::byte>(n);
+                        else
+                            std::memcpy(to + 2 * k, &n, 2);
+                    }
+                };
+                texture plain{width, height, channels, {}};
+                for (idx j = 0; j < height; ++j)
+                    for (idx i = 0; i < width; ++i)
+                        for (idx c = 0; c < channels; ++c)
+                            plain.texels.push_back(
+                                rows.table[number(i, j, palette ? 0 : c) * static_cast<std::size_t>(channels) +
+                                           static_cast<std::size_t>(c)]);
+                std::vector<float> row(static_cast<std::size_t>(width * channels));
+                rows.values(3, row.data());
+                CHECK(std::equal(row.begin(), row.end(), plain.at(0, 3)));
+                const bake_params how{.width = 40, .height = 40};
+                const auto made = impl::bake_any(q, {.old = &rows, .from = s.old_uv}, s.new_uv, how);
+                CHECK(made.image.texels == bake(q, plain, s.old_uv, s.new_uv, how).image.texels);
+            }
 }
 
 TEST_CASE("bake: a smooth texture through both atlases differs by less than its sampling")
@@ -258,8 +329,8 @@ TEST_CASE("bake: normals point as before, in turned and mirrored charts")
     const auto from = tangent_frames(s.points, s.triangles, normals, s.old_uv),
                to = tangent_frames(s.points, s.triangles, normals, s.new_uv);
     // What a texture says at a place: the normal in space.
-    const auto shown = [&](const texture& image, const std::vector<taut::impl::corner_tangents>& tangents,
-                           std::size_t t, const vec3& w, const vec2& uv, double green)
+    const auto shown = [&](const texture& image, const std::vector<taut::corner_tangents>& tangents, std::size_t t,
+                           const vec3& w, const vec2& uv, double green)
     {
         const auto stored = image.sample(uv);
         const vec3 n = two_atlases::at(normals[t], w);

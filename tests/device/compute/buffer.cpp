@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/compute/buffer.hpp>
+#include <taut/queue.hpp>
 
 #include "support/device.hpp"
 

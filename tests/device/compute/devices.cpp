@@ -3,8 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/compute/buffer.hpp>
-#include <taut/impl/compute/quirks.hpp>
+#include <taut/impl/core/compute/choose_device.hpp>
+#include <taut/impl/core/compute/kernel.hpp>
+#include <taut/impl/core/compute/quirks.hpp>
 
 #include "support/contains.hpp"
 #include "support/device.hpp"
@@ -42,11 +43,11 @@ TEST_CASE("devices: the list has the chosen device, which is described")
     CHECK(!chosen.name().empty());
     CHECK(chosen.compute_units() > 0);
     CHECK(chosen.global_memory() >= chosen.max_allocation());
-    CHECK(chosen.opencl_version() >= 120);
+    CHECK((chosen.is_host() || chosen.opencl_version() >= 120));
     std::ostringstream text;
     text << chosen;
     CHECK(contains(text.str(), chosen.name()));
-    CHECK(contains(text.str(), chosen.driver_version()));
+    CHECK((chosen.is_host() || contains(text.str(), chosen.driver_version())));
 }
 
 TEST_CASE("devices: TAUT_DEVICE chooses by index and by a part of a name in any case")
@@ -111,6 +112,8 @@ TEST_CASE("devices: double is refused by name on a device without fp64, float wo
 TEST_CASE("devices: TAUT_FORM=gpu takes the device for a GPU, and nothing else is known")
 {
     const taut::device d = taut::devices()[0].device;
+    if (d.is_host()) return; // it has no such form
+    with_variable wish("TAUT_DEVICE", "0");
     {
         with_variable form("TAUT_FORM", "gpu");
         const taut::device rehearsed = taut::find_device();
@@ -132,10 +135,35 @@ TEST_CASE("devices: a platform is PoCL or Oclgrind, not both")
     CHECK(!(taut::impl::quirks::is_pocl(d) && taut::impl::quirks::is_oclgrind(d)));
 }
 
-// Run by the ctest device.no_platform, with OCL_ICD_VENDORS at an empty folder.
-TEST_CASE("devices: without an OpenCL platform the error says so and names the package" * doctest::skip())
+TEST_CASE("devices: the host is the last one, and found by its name")
 {
-    CHECK(taut::devices().empty());
+    const auto all = taut::devices();
+    CHECK(all.back().device.is_host());
+    CHECK(all.back().refusal.empty());
+    for (std::size_t i = 0; i + 1 < all.size(); ++i) CHECK(!all[i].device.is_host());
+    CHECK(taut::find_device("host").is_host());
+    CHECK(taut::find_device("Host").has_fp64());
+    CHECK_THROWS_AS(taut::find_device("host", {.memory = std::uint64_t{1} << 60}), taut::no_device);
+}
+
+TEST_CASE("devices: the host has no handles of OpenCL and compiles no text, and says so")
+{
+    taut::queue q(taut::device::host());
+    const taut::buffer<float> x(q, std::vector<float>(64, 1.0f));
+    CHECK_THROWS_WITH_AS(q.native(), doctest::Contains("none of OpenCL's"), taut::device_error);
+    CHECK_THROWS_AS(q.native_context(), taut::device_error);
+    CHECK_THROWS_AS(x.native(), taut::device_error);
+    CHECK_THROWS_WITH_AS(q.kernel<taut::buffer<float>>("__kernel void f(__global float* x) {}", "f"),
+                         doctest::Contains("record the kernel"), taut::build_error);
+}
+
+// Run by the ctest device.no_platform, with OCL_ICD_VENDORS at an empty folder.
+TEST_CASE("devices: without an OpenCL platform the host is there, and a wish for another says what is missing" *
+          doctest::skip())
+{
+    REQUIRE(taut::devices().size() == 1);
+    CHECK(taut::queue().device().is_host());
+    const with_variable wish("TAUT_DEVICE", "pthread");
     const std::string text = refusal_text();
     CHECK(contains(text, "no OpenCL platform is installed"));
     CHECK(contains(text, std::getenv("OCL_ICD_VENDORS")));

@@ -3,13 +3,13 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/compute/gather.hpp>
+#include <taut/impl/core/compute/gather.hpp>
 
 #include "support/device.hpp"
 #include "support/shared_context.hpp"
 
+using taut::real_buffer;
 using taut::scalar_type;
-using taut::impl::real_buffer;
 using taut::test::random_reals;
 using taut::test::sized_count;
 
@@ -100,7 +100,7 @@ TEST_CASE("gather: agrees with the host at every width that its kernels have")
         sum(contributions, out);
         CHECK(out.download() == expected);
     }
-    CHECK(q.counters().builds == 1);
+    CHECK(taut::test::has_built(q, 1));
 }
 
 TEST_CASE("gather: sums are formed in the type of the terms, and stored in another")

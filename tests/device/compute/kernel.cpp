@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/impl/compute/kernel.hpp>
-#include <taut/impl/compute/program/few_functions.hpp>
-#include <taut/impl/compute/quirks.hpp>
+#include <taut/impl/core/compute/kernel.hpp>
+#include <taut/impl/core/compute/program/few_functions.hpp>
+#include <taut/impl/core/compute/quirks.hpp>
 
 #include "support/contains.hpp"
 #include "support/device.hpp"
+#include "support/opencl.hpp"
 #include "support/shared_context.hpp"
 
 using taut::test::contains;
@@ -22,6 +23,7 @@ const std::string axpy = "__kernel void axpy(const float a, __global const float
 
 TEST_CASE("kernel: typed arguments reach their places")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const auto k = q.kernel<float, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy");
     const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
@@ -33,6 +35,7 @@ TEST_CASE("kernel: typed arguments reach their places")
 
 TEST_CASE("kernel: nothing runs over an empty range")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     taut::buffer<float> x(q, 0), y(q, 0);
     q.kernel<float, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy")(0, 1.0f, x, y);
@@ -41,6 +44,7 @@ TEST_CASE("kernel: nothing runs over an empty range")
 
 TEST_CASE("kernel: the local size is the one asked for, or a usual one, or the driver's for odd sizes")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     taut::buffer<taut::idx> c(q, 130);
     const auto k = q.kernel<taut::buffer<taut::idx>>(axpy, "count");
@@ -55,11 +59,12 @@ TEST_CASE("kernel: the local size is the one asked for, or a usual one, or the d
 
 TEST_CASE("kernel: equal source and options are built once, other options again")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
-    using k = taut::impl::typed_kernel<float, const taut::buffer<float>, taut::buffer<float>>;
+    using k = taut::typed_kernel<float, const taut::buffer<float>, taut::buffer<float>>;
     k(q, axpy, "axpy");
     k(q, axpy, "axpy");
-    taut::impl::typed_kernel<taut::buffer<taut::idx>>(q, axpy, "count");
+    taut::typed_kernel<taut::buffer<taut::idx>>(q, axpy, "count");
     CHECK(q.counters().builds == 1);
     k(q, axpy, "axpy", "-DX=1");
     CHECK(q.counters().builds == 2);
@@ -69,17 +74,16 @@ TEST_CASE("kernel: equal source and options are built once, other options again"
 
 TEST_CASE("kernel: quick builds leave optimisations out, and results as they are")
 {
+    if (!taut::test::compiles_text()) return;
     const auto options_of = [](taut::queue& q)
     {
-        taut::impl::typed_kernel<taut::buffer<float>, float> add_to = q.kernel<taut::buffer<float>, float>(
+        taut::typed_kernel<taut::buffer<float>, float> add_to = q.kernel<taut::buffer<float>, float>(
             "__kernel void add_to(__global float* y, const float a) { y[get_global_id(0)] += a; }", "add_to");
         taut::buffer<float> y(q, std::vector<float>(64, 1.0F));
         add_to(64, y, 2.0F);
         CHECK(y.download() == std::vector<float>(64, 3.0F));
-        const auto program = q.state()->cache.find(
-            "__kernel void add_to(__global float* y, const float a) { y[get_global_id(0)] += a; }", "add_to", "");
-        return program.get_program().get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS,
-                                                                 boost::compute::device(q.device().native()));
+        return taut::test::build_options(
+            q, "__kernel void add_to(__global float* y, const float a) { y[get_global_id(0)] += a; }", "add_to", "");
     };
     taut::queue full, quick(taut::find_device(), {.quick_builds = true});
     CHECK(options_of(full).find("-cl-opt-disable") == std::string::npos);
@@ -91,6 +95,7 @@ TEST_CASE("kernel: quick builds leave optimisations out, and results as they are
 
 TEST_CASE("kernel: programs that say they call few functions are built without a long header, others with it")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const auto without_header = [&](const std::string& options, const std::string& value)
     {
@@ -99,12 +104,7 @@ TEST_CASE("kernel: programs that say they call few functions are built without a
         taut::buffer<float> x(q, std::vector<float>(64, 9));
         taut::kernel(q, source, "f", options)(64, x);
         CHECK(x.download() == std::vector<float>(64, 3));
-        return contains(
-            q.state()
-                ->cache.find(source, "f", options)
-                .get_program()
-                .get_build_info<std::string>(CL_PROGRAM_BUILD_OPTIONS, boost::compute::device(q.device().native())),
-            "_OPENCL_H_");
+        return contains(taut::test::build_options(q, source, "f", options), "_OPENCL_H_");
     };
     const std::string few = taut::impl::few_functions;
     CHECK(without_header(few, "sqrt(x[i])") == taut::impl::quirks::reads_long_header(q.device()));
@@ -115,6 +115,7 @@ TEST_CASE("kernel: programs that say they call few functions are built without a
 
 TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built here if nobody else has")
 {
+    if (!taut::test::compiles_text()) return;
     const std::string text = "__kernel void add_to(__global float* y, const float a) { y[get_global_id(0)] += a; }";
     std::vector<std::string> told;
     int asked = 0;
@@ -125,7 +126,8 @@ TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built h
         CHECK(source == text);
         CHECK(kernels.empty());
         told.push_back(options);
-        return works ? taut::impl::build_under_way([&] { return ++asked < 3; }) : taut::impl::build_under_way();
+        return works ? taut::queue_options::wait_for_build([&] { return ++asked < 3; })
+                     : taut::queue_options::wait_for_build();
     };
     taut::queue q(taut::find_device(), {.build_elsewhere = elsewhere});
     const auto right = [&](const std::string& options)
@@ -135,7 +137,7 @@ TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built h
         add_to(64, y, 2.0F);
         return y.download() == std::vector<float>(64, 3.0F);
     };
-    auto& cache = q.state()->cache;
+    auto& cache = taut::test::cache_of(q);
     cache.expect(text, "-DA");
     cache.expect(text, "-DA");
     CHECK(told == std::vector<std::string>{"-DA"});
@@ -155,6 +157,7 @@ TEST_CASE("kernel: what is built elsewhere is told once, waited for, and built h
 
 TEST_CASE("kernel: kernels that are compiled elsewhere are told once and waited for at their first launch")
 {
+    if (!taut::test::compiles_text()) return;
     const std::string text = "__kernel void one(__global float* y) { y[get_global_id(0)] += 1; }\n"
                              "__kernel void two(__global float* y) { y[get_global_id(0)] += 2; }\n";
     std::vector<std::string> told;
@@ -169,7 +172,7 @@ TEST_CASE("kernel: kernels that are compiled elsewhere are told once and waited 
     };
     taut::queue q(taut::find_device(), {.build_elsewhere = elsewhere});
     const taut::kernel one(q, text, "one", "-DA");
-    for (int time = 0; time < 2; ++time) q.state()->cache.share(text, "-DA", {"two"});
+    for (int time = 0; time < 2; ++time) taut::test::cache_of(q).share(text, "-DA", {"two"});
     CHECK(told == std::vector<std::string>{"two"});
     const taut::kernel two(q, text, "two", "-DA");
     taut::buffer<float> y(q, std::vector<float>(64, 0));
@@ -185,12 +188,13 @@ TEST_CASE("kernel: kernels that are compiled elsewhere are told once and waited 
 
     taut::queue quick(taut::find_device(), {.quick_builds = true, .build_elsewhere = elsewhere});
     taut::kernel(quick, text, "one", "-DA");
-    quick.state()->cache.share(text, "-DA", {"two"});
+    taut::test::cache_of(quick).share(text, "-DA", {"two"});
     CHECK(told.size() == 1);
 }
 
 TEST_CASE("kernel: a compiler's refusal shows kernel, log, device and the numbered lines around the error")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const std::string source =
         "#line 1 \"kernels/broken.cl\"\n// one\n// two\n// three\n"
@@ -238,6 +242,7 @@ TEST_CASE("kernel: excerpts number lines as the compiler does")
 
 TEST_CASE("kernel: wrong names, argument counts and types are refused in words")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     CHECK_THROWS_AS(q.kernel<float>(axpy, "absent"), taut::device_error);
     CHECK_THROWS_AS(q.kernel<float>(axpy, "axpy"), taut::device_error);
@@ -257,6 +262,7 @@ TEST_CASE("kernel: wrong names, argument counts and types are refused in words")
 
 TEST_CASE("kernel: a scalar of another size is refused by name")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const auto k = q.kernel<double, const taut::buffer<float>, taut::buffer<float>>(axpy, "axpy");
     taut::buffer<float> x(q, 64), y(q, 64);
@@ -273,6 +279,7 @@ TEST_CASE("kernel: a scalar of another size is refused by name")
 
 TEST_CASE("kernel: a buffer of another queue's context is refused")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q, other;
     const auto k = q.kernel<taut::buffer<taut::idx>>(axpy, "count");
     taut::buffer<taut::idx> foreign(other, 64);
@@ -281,6 +288,7 @@ TEST_CASE("kernel: a buffer of another queue's context is refused")
 
 TEST_CASE("kernel: arguments are bound by name in any order")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const taut::kernel k(q, axpy, "axpy");
     const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
@@ -296,16 +304,18 @@ TEST_CASE("kernel: arguments are bound by name in any order")
 
 TEST_CASE("kernel: a double narrows to a float parameter, by name")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const taut::kernel k(q, axpy, "axpy");
-    const taut::impl::real_buffer x(q, taut::scalar_type::f32, std::vector<double>(64, 1.0));
-    taut::impl::real_buffer y(q, taut::scalar_type::f32, std::vector<double>(64, 0.0));
+    const taut::real_buffer x(q, taut::scalar_type::f32, std::vector<double>(64, 1.0));
+    taut::real_buffer y(q, taut::scalar_type::f32, std::vector<double>(64, 0.0));
     k(64, {{"a", 0.1}, {"x", x}, {"y", y}});
     CHECK(y.download() == std::vector<double>(64, static_cast<double>(0.1f)));
 }
 
 TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const std::string source = "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n"
                                "__kernel void scale(const REAL factor, __global REAL* restrict x)\n"
@@ -313,11 +323,11 @@ TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
     for (const auto type : {taut::scalar_type::f32, taut::scalar_type::f64})
     {
         const taut::kernel k(q, source, "scale", "-DREAL=" + std::string(taut::impl::spelling(type)), type);
-        taut::impl::real_buffer x(q, type, std::vector<double>(64, 3.0));
+        taut::real_buffer x(q, type, std::vector<double>(64, 3.0));
         k(64, {{"factor", 0.1}, {"x", x}});
         CHECK(x.download()[63] == taut::test::as_real(type, 3 * taut::test::as_real(type, 0.1)));
-        taut::impl::real_buffer other(
-            q, type == taut::scalar_type::f32 ? taut::scalar_type::f64 : taut::scalar_type::f32, 64);
+        taut::real_buffer other(q, type == taut::scalar_type::f32 ? taut::scalar_type::f64 : taut::scalar_type::f32,
+                                64);
         CHECK_THROWS_AS(k(64, {{"factor", 0.1}, {"x", other}}), taut::parameter_error);
     }
     taut::queue weak(taut::find_device().without_fp64());
@@ -326,6 +336,7 @@ TEST_CASE("kernel: what a macro REAL stands for decides the types of arguments")
 
 TEST_CASE("kernel: a missing, unknown, repeated or wrongly typed argument is refused by its name")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const taut::kernel k(q, axpy, "axpy"), count(q, axpy, "count");
     const taut::buffer<float> x(q, std::vector<float>(64, 2.0f));
@@ -360,6 +371,7 @@ TEST_CASE("kernel: a missing, unknown, repeated or wrongly typed argument is ref
 
 TEST_CASE("kernel: another number of arguments is refused by position, too")
 {
+    if (!taut::test::compiles_text()) return;
     taut::queue q(taut::test::shared_context());
     const taut::kernel set(q, "__kernel void set(__global float* x, const float a) { x[get_global_id(0)] = a; }",
                            "set");

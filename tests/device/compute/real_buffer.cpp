@@ -4,15 +4,14 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/compute/handler.hpp>
-#include <taut/impl/compute/real_buffer.hpp>
+#include <taut/kernel.hpp>
+#include <taut/queue.hpp>
 
 #include "support/device.hpp"
 #include "support/shared_context.hpp"
 
+using taut::real_buffer;
 using taut::scalar_type;
-using taut::impl::host_reals;
-using taut::impl::real_buffer;
 using taut::test::random_reals;
 
 namespace
@@ -42,7 +41,7 @@ TEST_CASE("real_buffer: what is uploaded is downloaded, in the precision of the 
         b.download(std::span(last), 997);
         CHECK(last == std::vector<double>{values[997], taut::test::as_real(type, 0.1), 0x1p-60});
 
-        host_reals numbers(type, 1000);
+        real_buffer::numbers numbers(type, 1000);
         const auto before = q.counters().waits;
         b.begin_download(numbers);
         CHECK(q.counters().waits == before);
@@ -95,7 +94,7 @@ TEST_CASE("real_buffer: nothing is a legal size")
         b.fill(1);
         b.upload(std::vector<double>{});
         b.copy_from(c);
-        host_reals none(type, 0);
+        real_buffer::numbers none(type, 0);
         b.begin_download(none);
         CHECK(b.type() == type);
         CHECK(b.download().empty());
@@ -106,7 +105,7 @@ TEST_CASE("real_buffer: nothing is a legal size")
     }
     const real_buffer of_no_queue;
     CHECK(of_no_queue.empty());
-    CHECK(host_reals().size() == 0);
+    CHECK(real_buffer::numbers().size() == 0);
 }
 
 TEST_CASE("real_buffer: a copy between float and double is refused, and so are transfers outside of it")

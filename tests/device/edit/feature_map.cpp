@@ -8,10 +8,11 @@
 #include <support/edit_meshes.hpp>
 #include <support/meshes.hpp>
 #include <support/shared_context.hpp>
-#include <taut/impl/edit/paste.hpp>
-#include <taut/impl/edit/surface/surface_tree.hpp>
-#include <taut/impl/edit/write_feature_map.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/charts/paste/surface/surface_tree.hpp>
+#include <taut/impl/charts/paste/write_feature_map.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
+#include <taut/paste.hpp>
 
 using namespace taut;
 using namespace taut::impl;

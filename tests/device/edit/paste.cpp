@@ -12,16 +12,17 @@
 #include <support/edit_meshes.hpp>
 #include <support/shared_context.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/impl/edit/write_paste.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/charts/paste/write_paste.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
+#include <taut/surface_file.hpp>
 
 using namespace taut;
 
 namespace
 {
 
-constexpr taut::impl::mesh_requirements closed{.open = false, .one_boundary = false};
+constexpr taut::mesh_requirements closed{.open = false, .one_boundary = false};
 
 /// The mushroom with some of the plane around it.
 feature mushroom()

@@ -5,8 +5,8 @@
 
 #include <support/rbf_points.hpp>
 #include <support/shared_context.hpp>
-#include <taut/impl/edit/rbf.hpp>
-#include <taut/impl/edit/rbf_evaluator.hpp>
+#include <taut/impl/charts/paste/rbf.hpp>
+#include <taut/impl/charts/paste/rbf_evaluator.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -6,9 +6,10 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/check_gradient.hpp>
-#include <taut/impl/energy/isometric.hpp>
+#include <taut/any_energy.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/energy/check_gradient.hpp>
 
 namespace
 {

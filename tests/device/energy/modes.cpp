@@ -11,12 +11,11 @@
 #include <support/mips_power.hpp>
 #include <support/symmetric_eigen.hpp>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/energy/isotropic.hpp>
-#include <taut/impl/energy/modes.hpp>
-#include <taut/impl/energy/neo_hookean.hpp>
-#include <taut/impl/symbolic/evaluate.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/energy/isotropic.hpp>
+#include <taut/impl/core/energy/modes.hpp>
+#include <taut/symbolic.hpp>
 
 namespace
 {

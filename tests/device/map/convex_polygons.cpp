@@ -10,8 +10,8 @@
 
 #include <support/shared_context.hpp>
 
-#include <taut/impl/exact/convex_polygons.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/core/exact/convex_polygons.hpp>
+#include <taut/parameterize.hpp>
 
 namespace
 {

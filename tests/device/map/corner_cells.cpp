@@ -9,10 +9,11 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/exact/cell_validity.hpp>
-#include <taut/impl/io/volume_file.hpp>
-#include <taut/impl/map/smooth.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/files/volume/volume_file.hpp>
+#include <taut/rigid_motion.hpp>
+#include <taut/smooth.hpp>
+#include <taut/volume_file.hpp>
 
 namespace
 {
@@ -28,7 +29,7 @@ io::volume_file bar(idx n)
     for (idx k = 0; k <= 2 * n; ++k)
         for (idx j = 0; j <= n; ++j)
             for (idx i = 0; i <= n; ++i) file.points.push_back(vec3(i, j, k) / double(n));
-    io::impl::cell_block cubes{io::cell_kind::hexahedron, {}}, wedges{io::cell_kind::wedge, {}};
+    io::cell_block cubes{io::cell_kind::hexahedron, {}}, wedges{io::cell_kind::wedge, {}};
     for (idx k = 0; k < 2 * n; ++k)
         for (idx j = 0; j < n; ++j)
             for (idx i = 0; i < n; ++i)
@@ -53,7 +54,7 @@ io::volume_file sheet(idx n)
     file.dimension = 2;
     for (idx j = 0; j <= n; ++j)
         for (idx i = 0; i <= n; ++i) file.points.push_back(vec3(i, j, 0) / double(n));
-    io::impl::cell_block quads{io::cell_kind::quad, {}}, triangles{io::cell_kind::triangle, {}};
+    io::cell_block quads{io::cell_kind::quad, {}}, triangles{io::cell_kind::triangle, {}};
     for (idx j = 0; j < n; ++j)
         for (idx i = 0; i < n; ++i)
         {

@@ -13,11 +13,13 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/energy/distortion.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/mesh/ideal.hpp>
-#include <taut/impl/objective/map_evaluator.hpp>
+#include <taut/energies.hpp>
+#include <taut/evaluator.hpp>
+#include <taut/impl/core/exact/cell_validity.hpp>
+#include <taut/impl/core/measure/distortion.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/quality.hpp>
 
 namespace
 {

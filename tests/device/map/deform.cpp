@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -12,11 +13,10 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/energy/neo_hookean.hpp>
-#include <taut/impl/energy/shape.hpp>
-#include <taut/impl/map/deform.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/deform.hpp>
+#include <taut/energies.hpp>
+#include <taut/rigid_motion.hpp>
+#include <taut/smooth.hpp>
 
 namespace
 {
@@ -421,6 +421,84 @@ TEST_CASE("deform: a mesh of the plane goes through the same door, a surface in 
     check_promises(m, params.constraints, r);
     CHECK(r.report.converged);
     CHECK_THROWS_AS(deform(q, test::bumpy(5, 0.3, 1), deform_params<triangle>{}), parameter_error);
+}
+
+TEST_CASE("deform: a rotation of more than half a turn goes as far as it says, in the plane and in space")
+{
+    queue q(test::shared_context());
+    constexpr int around = 24, rings = 17; // of fewer triangles would have to invert
+    std::vector<vec3> points;
+    std::vector<std::array<idx, 3>> cells;
+    std::vector<idx> inner, outer;
+    for (int j = 0; j < rings; ++j)
+        for (int i = 0; i < around; ++i)
+        {
+            const double a = 2 * std::numbers::pi * i / around;
+            points.emplace_back((1 + j) * std::cos(a), (1 + j) * std::sin(a), 0);
+            const idx v = j * around + i, next = j * around + (i + 1) % around;
+            if (j == 0) inner.push_back(v);
+            if (j + 1 == rings) outer.push_back(v);
+            if (j + 1 == rings) continue;
+            cells.push_back({v, v + around, next + around});
+            cells.push_back({v, next + around, next});
+        }
+    const mesh<triangle> ring(points, cells);
+    for (const double angle : {4.5, -4.5, 2 * std::numbers::pi})
+    {
+        CAPTURE(angle);
+        const rigid_motion<2> by{.angle = angle};
+        deform_params<triangle> params{.constraints = taut::constraints(ring).fix(outer).move(inner, by)};
+        const auto r = deform(q, ring, params);
+        check_promises(ring, params.constraints, r);
+        // Once around: each vertex lags behind the next one inward by less than half a turn.
+        const auto direction = [&](int j)
+        {
+            const vec2& p = r.x[static_cast<std::size_t>(j * around)];
+            return std::atan2(p.y, p.x);
+        };
+        double wound = 0;
+        for (int j = 1; j < rings; ++j) wound += std::remainder(direction(j - 1) - direction(j), 2 * std::numbers::pi);
+        CHECK(wound == doctest::Approx(angle).epsilon(1e-6));
+    }
+
+    const auto m = tower(3, 3);
+    auto params = deform_params<tetrahedron>{.constraints = taut::constraints(m).fix(bottom(m)).move(top(m), turn(4))};
+    const auto far = deform(q, m, params);
+    check_promises(m, params.constraints, far);
+    params.constraints.rotations({}); // the same places, by the shorter way
+    const auto near = deform(q, m, params);
+    check_promises(m, params.constraints, near);
+    CHECK(far.report.energy - 2 > 1.5 * (near.report.energy - 2)); // 2: of the shape at rest
+
+    // Of a session, which goes on where its budget ended.
+    session s(q, m, {.constraints = taut::constraints(m).fix(bottom(m))});
+    REQUIRE(s.solve());
+    s.move(top(m), turn(4));
+    auto r = s.solve({.steps = 3});
+    CHECK(!r.report.pins_held);
+    for (int call = 0; call < 30 && !(r.report.pins_held && r.report.converged); ++call) r = s.solve({.steps = 20});
+    check_promises(m, s.constraints(), r);
+    CHECK(r.report.energy == doctest::Approx(far.report.energy).epsilon(1e-3));
+    const auto steps = s.solve().report.steps;
+    CHECK(steps == 0); // it does not go around again
+}
+
+TEST_CASE("deform: a planar mesh may lie at any height")
+{
+    auto points = test::grid(6, 6).points();
+    for (vec3& p : points) p.z = -7.25;
+    const mesh<triangle> m(points, test::grid(6, 6).cells());
+    queue q(test::shared_context());
+    std::vector<idx> left, right;
+    for (idx v = 0; v < m.vertex_count(); ++v)
+    {
+        if (points[static_cast<std::size_t>(v)].x == 0) left.push_back(v);
+        if (points[static_cast<std::size_t>(v)].x == 1) right.push_back(v);
+    }
+    const rigid_motion<2> by{.to = {0.3, 0.1}};
+    deform_params<triangle> params{.constraints = taut::constraints(m).fix(left).move(right, by)};
+    check_promises(m, params.constraints, deform(q, m, params));
+    CHECK(smooth(q, m));
 }
 
 TEST_CASE("session: a volume follows a handle that is moved in many steps, injective at each")

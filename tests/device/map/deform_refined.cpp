@@ -5,7 +5,7 @@
 
 #include <support/infeasible_problems.hpp>
 #include <support/shared_context.hpp>
-#include <taut/impl/map/deform_refined.hpp>
+#include <taut/deform.hpp>
 
 using namespace taut;
 

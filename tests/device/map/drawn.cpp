@@ -16,8 +16,10 @@
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
-#include <taut/impl/atlas/cut_to_disk.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/charts/atlas/cut_to_disk.hpp>
+#include <taut/parameterize.hpp>
 
 namespace
 {

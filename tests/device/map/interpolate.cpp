@@ -11,7 +11,7 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/map/interpolate.hpp>
+#include <taut/deform.hpp>
 
 namespace
 {

@@ -14,11 +14,11 @@
 #include <support/size.hpp>
 #include <support/strips.hpp>
 
-#include <taut/impl/core/budget.hpp>
-#include <taut/impl/energy/shape.hpp>
-#include <taut/impl/map/overlap/scaffold.hpp>
-#include <taut/impl/map/overlap/start_apart.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/core/budget.hpp>
+#include <taut/impl/core/map/overlap/scaffold.hpp>
+#include <taut/impl/core/map/overlap/start_apart.hpp>
+#include <taut/parameterize.hpp>
 
 namespace
 {

@@ -8,10 +8,10 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/measure/quality.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/quality.hpp>
 
 namespace
 {

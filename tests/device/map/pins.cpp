@@ -12,9 +12,9 @@
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
-#include <taut/impl/energy/shape.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
+#include <taut/parameterize.hpp>
 
 namespace
 {

@@ -14,8 +14,8 @@
 #include <support/meshes.hpp>
 #include <support/shared_context.hpp>
 
-#include <taut/impl/constrain/place_map.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/impl/core/map/place_map.hpp>
+#include <taut/parameterize.hpp>
 
 namespace
 {

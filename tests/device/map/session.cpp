@@ -12,12 +12,12 @@
 #include <support/size.hpp>
 #include <support/winding.hpp>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/energy/shape.hpp>
-#include <taut/impl/map/parameterize.hpp>
-#include <taut/impl/map/session.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/mesh.hpp>
+#include <taut/parameterize.hpp>
+#include <taut/session.hpp>
 
 namespace
 {

@@ -12,9 +12,10 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/exact/collapses.hpp>
-#include <taut/impl/map/deform.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/certify.hpp>
+#include <taut/deform.hpp>
+#include <taut/impl/core/exact/collapses.hpp>
+#include <taut/rigid_motion.hpp>
 
 namespace
 {

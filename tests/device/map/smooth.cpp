@@ -10,8 +10,8 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/map/smooth.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/rigid_motion.hpp>
+#include <taut/smooth.hpp>
 
 namespace
 {

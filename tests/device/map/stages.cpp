@@ -11,8 +11,8 @@
 #include <support/size.hpp>
 #include <support/stage_watch.hpp>
 
-#include <taut/impl/map/deform.hpp>
-#include <taut/impl/map/parameterize.hpp>
+#include <taut/deform.hpp>
+#include <taut/parameterize.hpp>
 
 namespace
 {
@@ -29,7 +29,7 @@ mesh<triangle> bumps()
                        });
 }
 
-int iterations(const std::vector<taut::impl::stage_report>& stages, const std::string& name, bool finest)
+int iterations(const std::vector<taut::stage_report>& stages, const std::string& name, bool finest)
 {
     int sum = 0;
     for (const auto& s : stages)
@@ -55,7 +55,7 @@ TEST_CASE("stages: of a free map from coarse to fine, complete, with the energie
     CHECK(iterations(stages, "minimise", false) == coarse);
 
     std::size_t reinserted = 0, level = std::size_t(-1);
-    const taut::impl::stage_report* before = nullptr;
+    const taut::stage_report* before = nullptr;
     for (const auto& s : stages)
     {
         if (s.stage != "reinsert" && s.stage != "minimise") continue;

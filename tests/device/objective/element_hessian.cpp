@@ -10,13 +10,12 @@
 #include <support/shared_context.hpp>
 #include <support/symmetric_eigen.hpp>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/mesh/tetrahedron.hpp>
-#include <taut/impl/mesh/triangle.hpp>
-#include <taut/impl/objective/element_hessian.hpp>
-#include <taut/impl/objective/volume_objective.hpp>
-#include <taut/impl/symbolic/evaluate.hpp>
+#include <taut/elements.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/objective/element_hessian.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
+#include <taut/symbolic.hpp>
 
 namespace
 {

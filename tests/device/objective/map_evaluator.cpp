@@ -11,9 +11,9 @@
 #include <support/meshes.hpp>
 #include <support/shared_context.hpp>
 
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/objective/map_evaluator.hpp>
-#include <taut/impl/objective/volume_objective.hpp>
+#include <taut/energies.hpp>
+#include <taut/evaluator.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
 
 namespace
 {

@@ -10,12 +10,12 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/objective/map_objective.hpp>
-#include <taut/impl/objective/volume_objective.hpp>
-#include <taut/impl/solve/minimize.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/objective/map_objective.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
+#include <taut/solve.hpp>
 
 namespace
 {
@@ -131,6 +131,7 @@ TEST_CASE_TEMPLATE("map objective: an energy that chooses between two constants 
           &relaxation.densities, &relaxation.terms, &relaxation.steps, &relaxation.tries, &relaxation.moves})
     {
         CAPTURE(k->text().name);
+        if (k->text().rows) continue; // on the host there is no text
         const bool has_double = k->text().source.find("double") != std::string::npos;
         // A kernel that reads no positions is in the type of vectors.
         const bool no_positions = k == &relaxation.steps;

@@ -8,11 +8,11 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/objective/mesh_levels.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
-#include <taut/impl/solve/minimize.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/objective/mesh_levels.hpp>
+#include <taut/impl/core/objective/newton_objective.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
+#include <taut/solve.hpp>
 
 namespace
 {

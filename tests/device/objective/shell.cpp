@@ -9,10 +9,10 @@
 #include <support/meshes.hpp>
 #include <support/shared_context.hpp>
 
-#include <taut/impl/energy/shell.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
-#include <taut/impl/objective/mesh_levels.hpp>
-#include <taut/impl/objective/newton_objective.hpp>
+#include <taut/impl/core/objective/mesh_levels.hpp>
+#include <taut/impl/core/objective/newton_objective.hpp>
+#include <taut/rigid_motion.hpp>
+#include <taut/shell.hpp>
 
 namespace
 {

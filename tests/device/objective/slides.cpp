@@ -7,11 +7,11 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/energy/shape.hpp>
-#include <taut/impl/measure/rigid_motion.hpp>
-#include <taut/impl/objective/mesh_levels.hpp>
-#include <taut/impl/objective/volume_objective.hpp>
-#include <taut/impl/solve/minimize.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/objective/mesh_levels.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
+#include <taut/rigid_motion.hpp>
+#include <taut/solve.hpp>
 
 namespace
 {

@@ -16,12 +16,12 @@
 #include <support/reference_problem.hpp>
 #include <support/shared_context.hpp>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/mesh/first_flip.hpp>
-#include <taut/impl/objective/volume_objective.hpp>
-#include <taut/impl/solve/minimize.hpp>
+#include <taut/certify.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/mesh/first_flip.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
+#include <taut/solve.hpp>
 
 namespace
 {

@@ -11,10 +11,10 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/objective/vertex_relaxation.hpp>
-#include <taut/impl/objective/volume_objective.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/objective/vertex_relaxation.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
 
 namespace
 {

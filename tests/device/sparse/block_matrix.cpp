@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/sparse/block_assembly.hpp>
-#include <taut/impl/sparse/block_transfer.hpp>
+#include <taut/impl/core/sparse/block_assembly.hpp>
+#include <taut/impl/core/sparse/block_transfer.hpp>
 
 #include "support/device.hpp"
 #include "support/lane_forms.hpp"

@@ -6,8 +6,8 @@
 
 #include <support/dense_matrix.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/sparse/cell_pattern.hpp>
-#include <taut/impl/sparse/dense_inverse.hpp>
+#include <taut/impl/core/sparse/cell_pattern.hpp>
+#include <taut/impl/core/sparse/dense_inverse.hpp>
 
 #include "support/device.hpp"
 #include "support/lane_forms.hpp"

@@ -7,9 +7,9 @@
 
 #include <support/dense_matrix.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/hierarchy/make_hierarchy.hpp>
-#include <taut/impl/sparse/block_assembly.hpp>
-#include <taut/impl/sparse/multigrid.hpp>
+#include <taut/impl/core/hierarchy/make_hierarchy.hpp>
+#include <taut/impl/core/sparse/block_assembly.hpp>
+#include <taut/impl/core/sparse/multigrid.hpp>
 
 #include "support/device.hpp"
 #include "support/lane_forms.hpp"
@@ -325,6 +325,7 @@ TEST_CASE_TEMPLATE("multigrid: the cycle is symmetric and positive", T, float, d
     std::vector<shape> shapes{{narrow, true, 2}, {wide, false, 3}, {narrow, false, 3}, {wide, true, 2},
                               {narrow, true, 3}, {wide, true, 3},  {narrow, false, 2}, {wide, false, 2}};
     shapes.resize(static_cast<std::size_t>(test::sized(8, 2)));
+    if (q.device().is_host()) std::erase_if(shapes, [](const shape& s) { return s.form.lanes == 1; });
     for (const shape& s : shapes)
     {
         const lane_form form = s.form;

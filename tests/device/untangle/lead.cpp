@@ -10,8 +10,9 @@
 #include <support/shared_context.hpp>
 #include <support/size.hpp>
 
-#include <taut/impl/objective/volume_objective.hpp>
-#include <taut/impl/untangle/untangle.hpp>
+#include <taut/impl/core/objective/volume_objective.hpp>
+#include <taut/impl/core/untangle/untangle_host.hpp>
+#include <taut/untangle.hpp>
 
 namespace
 {

@@ -12,8 +12,11 @@
 
 #include <support/regularized_sum.hpp>
 #include <support/shared_context.hpp>
-#include <taut/impl/untangle/element_newton.hpp>
-#include <taut/impl/untangle/untangle_on_device.hpp>
+#include <taut/impl/core/untangle/device/multigrid_newton.hpp>
+#include <taut/impl/core/untangle/element_newton.hpp>
+#include <taut/impl/core/untangle/untangle_host.hpp>
+#include <taut/impl/core/untangle/untangle_on_device.hpp>
+#include <taut/untangle.hpp>
 
 namespace
 {

@@ -13,9 +13,10 @@
 #include <support/meshes.hpp>
 #include <support/size.hpp>
 
+#include <support/lane_forms.hpp>
 #include <support/operator_step.hpp>
 #include <support/shared_context.hpp>
-#include <taut/impl/untangle/device/untangle_operator.hpp>
+#include <taut/impl/core/untangle/device/untangle_operator.hpp>
 
 namespace
 {
@@ -145,7 +146,7 @@ TEST_CASE_TEMPLATE(
     how.margin = 0.05;
     how.delta = 0.1;
     for (const double shear : {0.0, 1.0})
-        for (const lane_form form : {lane_form{16, 16}, lane_form{32, 1}})
+        for (const lane_form form : test::lane_forms())
         {
             how.shear = shear;
             int compared = 0;
@@ -354,12 +355,11 @@ TEST_CASE("untangling operator: what an iteration decides on the device is what 
     queue q(test::shared_context());
     std::mt19937 random(3);
     const auto below = [&](int n) { return static_cast<taut::idx>(random() % static_cast<unsigned>(n)); };
-    for (const int items : {1, 256})
+    for (const impl::lane_form form : test::lane_forms())
     {
-        const std::string options =
-            "-DD=2 -DL=" + std::to_string(items) + (items == 1 ? " -DV=16 -DC=16" : " -DV=1 -DC=32");
-        const typed_kernel<taut::idx, taut::idx, float, const buffer<float>, buffer<taut::idx>> decide{
-            q, impl::kernels::untangle, "untangle_decide", options};
+        const int items = form.lanes == 1 ? 256 : 1;
+        const kernel decide =
+            impl::make_kernel(q, impl::untangle_program(2, static_cast<std::size_t>(items), form), "untangle_decide");
         for (int trial = 0; trial < test::sized(60, 20); ++trial)
         {
             CAPTURE(items);

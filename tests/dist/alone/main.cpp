@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One process fails by itself where others wait for it, inside of PETSc or for its numbers: all are ended, with one
 // message, within a time. The calls of PETSc that are defined here stand in for its own.
-#include <cstdlib>
 #include <cstring>
 #include <iostream>
 #include <new>
@@ -61,8 +60,6 @@ int main(int argc, char** argv)
     MPI_Init(&argc, &argv);
     fault = argc > 1 ? argv[1] : "";
     ::setenv("TAUT_MPI_PATIENCE", "0.5", 1);
-    if (const char* caches = std::getenv("POCL_CACHE_DIR"))
-        ::setenv("POCL_CACHE_DIR", (std::string(caches) + "/process-" + std::to_string(rank_of())).c_str(), 1);
     const auto m = bar(3);
     try
     {

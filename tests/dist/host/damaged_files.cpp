@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <dist/volume_files.hpp>
-#include <taut/impl/dist_io/open_volume.hpp>
-#include <taut/impl/dist_io/tokens.hpp>
+#include <taut/impl/dist/ranges/open_volume.hpp>
+#include <taut/impl/dist/ranges/tokens.hpp>
 
 namespace taut::test
 {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include <dist/volume_files.hpp>
-#include <taut/impl/dist_io/open_volume.hpp>
+#include <taut/impl/dist/ranges/open_volume.hpp>
 
 namespace taut::test
 {

@@ -4,7 +4,8 @@
 #include <set>
 
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/chart_mesh.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 
 #include <support/closed_meshes.hpp>
-#include <taut/impl/atlas/chart_set.hpp>
-#include <taut/impl/atlas/surface_part.hpp>
+#include <taut/impl/charts/atlas/chart_set.hpp>
+#include <taut/impl/charts/atlas/surface_part.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/chart_start.hpp>
+#include <taut/impl/charts/atlas/chart_start.hpp>
 
 using namespace taut;
 

@@ -9,7 +9,7 @@
 #include <support/chart_checks.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/cluster_tree.hpp>
+#include <taut/impl/charts/atlas/cluster_tree.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -10,10 +10,12 @@
 
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/crossing_charts.hpp>
-#include <taut/impl/atlas/seen_patches.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/charts/atlas/crossing_charts.hpp>
+#include <taut/impl/charts/atlas/seen_patches.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/mesh.hpp>
 
 using namespace taut;
 using namespace taut::impl;

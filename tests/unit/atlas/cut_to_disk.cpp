@@ -7,7 +7,10 @@
 #include <support/chart_checks.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/cut_to_disk.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/charts/atlas/cut_to_disk.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
 
 using namespace taut;
 using namespace taut::impl;

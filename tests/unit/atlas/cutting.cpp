@@ -17,13 +17,14 @@
 #include <support/at.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/cutting/coarse_surface.hpp>
-#include <taut/impl/atlas/cutting/lift_seams.hpp>
-#include <taut/impl/atlas/cutting/part_charts.hpp>
-#include <taut/impl/atlas/cutting/seam_search.hpp>
-#include <taut/impl/atlas/cutting/short_cutting.hpp>
-#include <taut/impl/atlas/filled_square.hpp>
-#include <taut/impl/atlas/filling_cuts.hpp>
+#include <taut/impl/charts/atlas/cutting/coarse_surface.hpp>
+#include <taut/impl/charts/atlas/cutting/lift_seams.hpp>
+#include <taut/impl/charts/atlas/cutting/part_charts.hpp>
+#include <taut/impl/charts/atlas/cutting/seam_search.hpp>
+#include <taut/impl/charts/atlas/cutting/short_cutting.hpp>
+#include <taut/impl/charts/atlas/filled_square.hpp>
+#include <taut/impl/charts/atlas/filling_cuts.hpp>
+#include <taut/impl/core/solve/line/line_search.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/panel_order.hpp>
-#include <taut/impl/mesh/incidence.hpp>
+#include <taut/impl/charts/atlas/panel_order.hpp>
+#include <taut/impl/core/mesh/incidence.hpp>
 
 using namespace taut;
 using namespace taut::impl;

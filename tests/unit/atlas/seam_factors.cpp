@@ -5,8 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <support/closed_meshes.hpp>
-#include <taut/impl/atlas/seams/openness.hpp>
-#include <taut/impl/atlas/seams/seam_factors.hpp>
+#include <taut/impl/charts/atlas/seams/openness.hpp>
+#include <taut/impl/charts/atlas/seams/seam_factors.hpp>
 
 using namespace taut;
 

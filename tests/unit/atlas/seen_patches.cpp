@@ -10,9 +10,10 @@
 #include <support/chart_checks.hpp>
 #include <support/closed_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/crossing_charts.hpp>
-#include <taut/impl/atlas/seen_patches.hpp>
-#include <taut/impl/exact/certify.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/charts/atlas/chart_mesh.hpp>
+#include <taut/impl/charts/atlas/crossing_charts.hpp>
+#include <taut/impl/charts/atlas/seen_patches.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -10,8 +10,10 @@
 #include <support/closed_meshes.hpp>
 #include <support/host_flatten.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/segment.hpp>
-#include <taut/impl/exact/crossings.hpp>
+#include <taut/certify.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/segment.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -7,11 +7,11 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/atlas/atlas_summary.hpp>
-#include <taut/impl/atlas/chart_start.hpp>
-#include <taut/impl/atlas/settled_charts.hpp>
-#include <taut/impl/core/single.hpp>
-#include <taut/impl/io/obj.hpp>
+#include <taut/impl/charts/atlas/atlas_summary.hpp>
+#include <taut/impl/charts/atlas/chart_start.hpp>
+#include <taut/impl/charts/atlas/settled_charts.hpp>
+#include <taut/impl/core/core/single.hpp>
+#include <taut/impl/files/surface/obj.hpp>
 
 namespace
 {

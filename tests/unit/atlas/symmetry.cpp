@@ -8,8 +8,9 @@
 
 #include <support/at.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/atlas/symmetry.hpp>
-#include <taut/impl/atlas/symmetry/symmetric_half.hpp>
+#include <taut/charts.hpp>
+#include <taut/impl/charts/atlas/symmetry.hpp>
+#include <taut/impl/charts/atlas/symmetry/symmetric_half.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -7,10 +7,9 @@
 #include <doctest/doctest.h>
 
 #include <support/two_atlases.hpp>
-#include <taut/impl/bake/compare_textures.hpp>
-#include <taut/impl/bake/fill_gutters.hpp>
-#include <taut/impl/bake/tangent_frames.hpp>
-#include <taut/impl/bake/triangle_tiles.hpp>
+#include <taut/bake.hpp>
+#include <taut/impl/charts/bake/fill_gutters.hpp>
+#include <taut/impl/charts/bake/triangle_tiles.hpp>
 
 using namespace taut;
 
@@ -120,4 +119,16 @@ TEST_CASE("sample: texels have their values at their centres, and textures repea
     CHECK(image.sample({0.0, 0.25})[0] == 0.5);
     CHECK(image.sample({0.0, 0.25}, texture::filter::bilinear, texture::wrap::clamp)[0] == 0);
     CHECK(image.sample({0.6, 0.9}, texture::filter::nearest)[0] == 3);
+}
+
+TEST_CASE("compare_textures: what is no number in one of them alone differs by infinity")
+{
+    const float none = std::numeric_limits<float>::quiet_NaN();
+    const auto same = compare_textures({2, 1, 1, {none, 1}}, {2, 1, 1, {none, 0.5f}});
+    CHECK(same.largest == 0.5);
+    CHECK(same.unlike == 0);
+    const auto other = compare_textures({2, 1, 1, {none, 1}}, {2, 1, 1, {0, 1}});
+    CHECK(std::isinf(other.largest));
+    CHECK(std::isinf(other.rms));
+    CHECK(other.unlike == 1);
 }

@@ -6,7 +6,8 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/io/make_untangle_problem.hpp>
+#include <taut/impl/files/surface/pins.hpp>
+#include <taut/volume_file.hpp>
 
 using namespace taut;
 

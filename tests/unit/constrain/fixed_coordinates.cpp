@@ -4,7 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/constrain/fixed_coordinates.hpp>
+#include <taut/impl/core/constrain/fixed_coordinates.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/constrain/prescribed_paths.hpp>
+#include <taut/impl/core/constrain/prescribed_paths.hpp>
 
 using namespace taut;
 using namespace taut::impl;

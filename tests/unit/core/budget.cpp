@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include <taut/impl/core/budget.hpp>
+#include <taut/impl/core/core/budget.hpp>
 
 using namespace std::chrono_literals;
 using taut::impl::budget;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <taut/impl/core/fixed_marks.hpp>
+#include <taut/impl/core/core/fixed_marks.hpp>
 
 TEST_CASE("fixed marks: coordinates of a vertex are held one by one or all together")
 {

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/core/keyed_hash.hpp>
+#include <taut/impl/core/core/keyed_hash.hpp>
 
 using namespace taut;
 using namespace taut::impl;

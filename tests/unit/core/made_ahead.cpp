@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/core/made_ahead.hpp>
+#include <taut/impl/core/map/made_ahead.hpp>
 
 using taut::impl::made_ahead;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/impl/core/padded.hpp>
+#include <taut/impl/core/core/padded.hpp>
 
 TEST_CASE("padded: the next multiple, and 0 for nothing")
 {

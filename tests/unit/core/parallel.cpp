@@ -9,8 +9,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/core/crew.hpp>
-#include <taut/impl/core/parallel.hpp>
+#include <taut/impl/core/core/crew.hpp>
+#include <taut/impl/core/core/parallel.hpp>
 
 using taut::impl::parallel_for;
 

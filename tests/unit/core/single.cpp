@@ -8,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/core/single.hpp>
-#include <taut/impl/core/types.hpp>
+#include <taut/impl/core/core/single.hpp>
+#include <taut/types.hpp>
 
 namespace
 {

@@ -11,9 +11,9 @@
 
 #include <support/meshes.hpp>
 #include <support/rbf_points.hpp>
-#include <taut/impl/edit/surface/plane_triangulation.hpp>
-#include <taut/impl/edit/surface/polygon_filling.hpp>
-#include <taut/impl/edit/surface/surface_tree.hpp>
+#include <taut/impl/charts/paste/surface/plane_triangulation.hpp>
+#include <taut/impl/charts/paste/surface/polygon_filling.hpp>
+#include <taut/impl/charts/paste/surface/surface_tree.hpp>
 
 using namespace taut;
 

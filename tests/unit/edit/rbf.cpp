@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/rbf_points.hpp>
-#include <taut/impl/edit/rbf.hpp>
+#include <taut/impl/charts/paste/rbf.hpp>
 
 using namespace taut;
 

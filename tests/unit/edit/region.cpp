@@ -9,9 +9,10 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/edit/geodesic_distances.hpp>
-#include <taut/impl/edit/region.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/charts/paste/geodesic_distances.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
+#include <taut/paste.hpp>
 
 using namespace taut;
 using namespace taut::impl;

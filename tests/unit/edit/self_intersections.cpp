@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/edit_meshes.hpp>
-#include <taut/impl/edit/self_intersections.hpp>
+#include <taut/impl/charts/paste/self_intersections.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -6,11 +6,11 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/energy/algebra.hpp>
-#include <taut/impl/energy/corner_derivatives.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/energy/modes.hpp>
-#include <taut/impl/mesh/ideal.hpp>
+#include <taut/energies.hpp>
+#include <taut/impl/core/energy/algebra.hpp>
+#include <taut/impl/core/energy/corner_derivatives.hpp>
+#include <taut/impl/core/energy/modes.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
 
 namespace
 {

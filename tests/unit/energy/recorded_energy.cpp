@@ -3,10 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/energy/any_energy.hpp>
-#include <taut/impl/energy/check_gradient.hpp>
-#include <taut/impl/energy/isometric.hpp>
-#include <taut/impl/energy/recorded_energy.hpp>
+#include <taut/any_energy.hpp>
+#include <taut/energies.hpp>
 
 namespace
 {

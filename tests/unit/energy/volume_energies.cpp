@@ -3,8 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/energy/neo_hookean.hpp>
-#include <taut/impl/energy/shape_power.hpp>
+#include <taut/energies.hpp>
 
 namespace
 {

@@ -8,9 +8,9 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/exact/branch_edges.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/measure/describe_defects.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/exact/branch_edges.hpp>
+#include <taut/impl/core/measure/describe_defects.hpp>
 
 namespace
 {

@@ -8,9 +8,8 @@
 
 #include <support/meshes.hpp>
 #include <support/winding.hpp>
-#include <taut/impl/exact/branch_points.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/measure/describe_defects.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/measure/describe_defects.hpp>
 
 namespace
 {

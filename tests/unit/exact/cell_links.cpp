@@ -8,8 +8,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/exact/cell_tetrahedra.hpp>
-#include <taut/impl/exact/certify.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/exact/cell_tetrahedra.hpp>
 
 namespace
 {

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include <doctest/doctest.h>
-#include <taut/impl/exact/cell_validity.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/exact/cell_validity.hpp>
 
 namespace
 {

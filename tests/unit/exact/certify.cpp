@@ -4,8 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/mesh/ideal.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
 
 #include "support/meshes.hpp"
 

@@ -5,7 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/exact/crossings.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/exact/crossings.hpp>
 
 namespace
 {

@@ -6,9 +6,9 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/core/single.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/exact/mend_rounding.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/core/single.hpp>
+#include <taut/impl/core/exact/mend_rounding.hpp>
 
 namespace
 {

@@ -8,8 +8,8 @@
 #include <random>
 
 #include <support/size.hpp>
-#include <taut/impl/exact/exact_sum.hpp>
-#include <taut/impl/exact/refine_triangulation.hpp>
+#include <taut/impl/core/exact/exact_sum.hpp>
+#include <taut/impl/core/exact/refine_triangulation.hpp>
 
 namespace
 {

@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/exact/predicates.hpp>
+#include <taut/impl/core/exact/predicates.hpp>
 
 namespace
 {

@@ -8,9 +8,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/core/single.hpp>
-#include <taut/impl/exact/convex_polygons.hpp>
-#include <taut/impl/exact/settle_map.hpp>
+#include <taut/impl/charts/packing/settle_map.hpp>
+#include <taut/impl/core/core/single.hpp>
+#include <taut/impl/core/exact/convex_polygons.hpp>
 
 namespace
 {

@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/exact/vanishing_sum.hpp>
+#include <taut/impl/core/untangle/proofs/vanishing_sum.hpp>
 
 using taut::impl::big_integer;
 

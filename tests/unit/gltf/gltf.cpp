@@ -14,10 +14,12 @@
 
 #include <support/gltf_models.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/impl/gltf/gltf.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/read_file.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/errors.hpp>
+#include <taut/gltf.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/impl/files/file/read_file.hpp>
+#include <taut/impl/files/gltf/gltf.hpp>
+#include <taut/mesh.hpp>
 
 namespace
 {

@@ -9,8 +9,9 @@
 
 #include <support/gltf_models.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/impl/gltf/gltf.hpp>
-#include <taut/impl/io/io_error.hpp>
+#include <taut/errors.hpp>
+#include <taut/gltf.hpp>
+#include <taut/impl/files/gltf/gltf.hpp>
 
 namespace
 {

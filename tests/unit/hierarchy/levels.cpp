@@ -6,9 +6,10 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include <taut/impl/mesh/boundary.hpp>
-#include <taut/impl/mesh/order.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/impl/core/mesh/order.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
 
 namespace
 {

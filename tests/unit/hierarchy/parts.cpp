@@ -8,8 +8,8 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include <taut/impl/exact/predicates.hpp>
-#include <taut/impl/hierarchy/star_energy.hpp>
+#include <taut/impl/core/exact/predicates.hpp>
+#include <taut/impl/core/hierarchy/star_energy.hpp>
 
 namespace
 {

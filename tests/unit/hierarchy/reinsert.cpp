@@ -7,10 +7,10 @@
 #include <doctest/doctest.h>
 
 #include "support.hpp"
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/exact/predicates.hpp>
-#include <taut/impl/hierarchy/reinsert.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/exact/predicates.hpp>
+#include <taut/impl/core/hierarchy/reinsert.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
 
 namespace
 {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <support/meshes.hpp>
-#include <taut/impl/hierarchy/make_hierarchy.hpp>
+#include <taut/impl/core/hierarchy/make_hierarchy.hpp>
 
 namespace taut::test
 {

@@ -7,9 +7,10 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/hierarchy/coarser_volume.hpp>
-#include <taut/impl/hierarchy/make_volume_hierarchy.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/core/hierarchy/coarser_volume.hpp>
+#include <taut/impl/core/hierarchy/make_volume_hierarchy.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
 
 namespace
 {

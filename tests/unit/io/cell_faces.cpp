@@ -4,9 +4,10 @@
 #include <vector>
 
 #include <doctest/doctest.h>
-#include <taut/impl/io/cell_faces.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/mesh/cell_corners.hpp>
+#include <taut/impl/core/mesh/cell_corners.hpp>
+#include <taut/impl/files/volume/cell_faces.hpp>
+#include <taut/impl/files/volume/read_volume.hpp>
+#include <taut/volume_file.hpp>
 
 #include "support/volume_texts.hpp"
 

@@ -9,9 +9,8 @@
 
 #include <support/meshes.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_obj.hpp>
+#include <taut/errors.hpp>
+#include <taut/surface_file.hpp>
 
 using namespace taut;
 using test::temporary_folder;

@@ -7,12 +7,12 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/io/obj.hpp>
-#include <taut/impl/io/off.hpp>
-#include <taut/impl/io/ply.hpp>
-#include <taut/impl/io/read_file.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/stl.hpp>
+#include <taut/impl/files/file/read_file.hpp>
+#include <taut/impl/files/surface/obj.hpp>
+#include <taut/impl/files/surface/off.hpp>
+#include <taut/impl/files/surface/ply.hpp>
+#include <taut/impl/files/surface/stl.hpp>
+#include <taut/surface_file.hpp>
 
 namespace
 {

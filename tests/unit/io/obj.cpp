@@ -10,8 +10,8 @@
 
 #include <support/contains.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/obj.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/surface/obj.hpp>
 
 namespace
 {
@@ -226,7 +226,8 @@ TEST_CASE("obj: a very large polygon becomes a fan, with a note")
     CHECK(large.surface.cell_count() == 4398);
     REQUIRE(large.notes.size() == 2);
     CHECK(contains(large.notes[0], "(1 as a fan, too large for more)"));
-    CHECK(contains(large.notes[1], "1 polygon is not seen as a whole from its first corner"));
+    CHECK(
+        contains(large.notes[1], "1 polygon is concave, and fan triangulation from the first corner flips triangles"));
     for (const auto& text : {star(4400, 1), star(600, 0.5)}) // few reflex corners take few steps
     {
         const auto ears = parse_obj(text);
@@ -249,7 +250,7 @@ TEST_CASE("obj: a polygon that is not convex is cut as a fan from its first corn
     const auto hidden = parse_obj(dented + "f 3 4 5 6 1 2\n");
     CHECK(hidden.surface.cell_count() == 4);
     REQUIRE(hidden.notes.size() == 2);
-    CHECK(contains(hidden.notes[1], "not seen as a whole from its first corner"));
+    CHECK(contains(hidden.notes[1], "1 polygon is concave, and fan triangulation"));
 }
 
 TEST_CASE("obj: texture coordinates of polygons follow their corners")
@@ -290,7 +291,7 @@ TEST_CASE("obj: malformed lines are named")
         const auto e = io_error_of(text);
         CHECK(e.path() == "x.obj");
         REQUIRE(e.place());
-        CHECK(e.place()->counted_in == io::impl::file_place::line);
+        CHECK(e.place()->counted_in == io::file_place::line);
         return e.place()->number;
     };
     CHECK(line("v 0 0\n") == 1);

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/off.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/surface/off.hpp>
 
 namespace
 {

@@ -5,9 +5,9 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/file/plain_file.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/read_file.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/file/plain_file.hpp>
+#include <taut/impl/files/file/read_file.hpp>
 
 using namespace taut;
 using io::impl::plain_file;

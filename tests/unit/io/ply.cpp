@@ -5,8 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/ply.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/surface/ply.hpp>
 
 namespace
 {
@@ -166,7 +166,7 @@ TEST_CASE("ply: malformed headers are refused with the line")
     {
         const auto e = ply_error_of(text);
         REQUIRE(e.place());
-        CHECK(e.place()->counted_in == io::impl::file_place::line);
+        CHECK(e.place()->counted_in == io::file_place::line);
         return e.place()->number;
     };
     CHECK(line("") == 1);
@@ -198,7 +198,7 @@ TEST_CASE("ply: bodies that are too short or hold nonsense are refused")
         {
             const auto e = ply_error_of(whole.substr(0, n));
             REQUIRE(e.place());
-            CHECK(e.place()->counted_in == io::impl::file_place::byte);
+            CHECK(e.place()->counted_in == io::file_place::byte);
             CHECK(e.place()->number >= body);
             CHECK(e.place()->number <= n);
         }

@@ -10,11 +10,12 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/io/obj.hpp>
-#include <taut/impl/io/off.hpp>
-#include <taut/impl/io/ply.hpp>
-#include <taut/impl/mesh/facets.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/core/mesh/facets.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/impl/files/surface/obj.hpp>
+#include <taut/impl/files/surface/off.hpp>
+#include <taut/impl/files/surface/ply.hpp>
+#include <taut/mesh.hpp>
 
 namespace
 {

@@ -5,9 +5,10 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/prob.hpp>
-#include <taut/impl/io/write_map.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/surface/prob.hpp>
+#include <taut/impl/files/surface/prob_bodies.hpp>
+#include <taut/surface_file.hpp>
 
 using namespace taut;
 using test::temporary_folder;

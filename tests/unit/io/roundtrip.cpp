@@ -6,9 +6,8 @@
 
 #include <support/meshes.hpp>
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/obj.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_obj.hpp>
+#include <taut/impl/files/surface/obj.hpp>
+#include <taut/surface_file.hpp>
 
 using namespace taut;
 using test::temporary_folder;

@@ -9,10 +9,11 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/stl.hpp>
-#include <taut/impl/io/surface/surface_formats.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/impl/files/surface/stl.hpp>
+#include <taut/impl/files/surface/surface_formats.hpp>
+#include <taut/mesh.hpp>
+#include <taut/surface_file.hpp>
 
 namespace
 {

@@ -6,16 +6,17 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <taut/impl/io/file/posix_file.hpp>
+#include <taut/impl/files/file/posix_file.hpp>
 #endif
 
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/pins.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/read_volume.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/surface/pins.hpp>
+#include <taut/impl/files/volume/read_volume.hpp>
+#include <taut/surface_file.hpp>
+#include <taut/volume_file.hpp>
 
 using namespace taut;
 

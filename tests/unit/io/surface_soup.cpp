@@ -6,14 +6,13 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/obj.hpp>
-#include <taut/impl/io/off.hpp>
-#include <taut/impl/io/ply.hpp>
-#include <taut/impl/io/read_file.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/surface/complete_texcoords.hpp>
-#include <taut/impl/io/write_obj.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/file/read_file.hpp>
+#include <taut/impl/files/surface/complete_texcoords.hpp>
+#include <taut/impl/files/surface/obj.hpp>
+#include <taut/impl/files/surface/off.hpp>
+#include <taut/impl/files/surface/ply.hpp>
+#include <taut/surface_file.hpp>
 
 namespace
 {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/read_volume.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/volume/read_volume.hpp>
+#include <taut/volume_file.hpp>
 
 #include "support/volume_texts.hpp"
 

@@ -6,9 +6,10 @@
 #include <doctest/doctest.h>
 
 #include <support/volume_texts.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/volume/read_volume.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/volume_file.hpp>
 
 namespace
 {

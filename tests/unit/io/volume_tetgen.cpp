@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/read_volume.hpp>
-#include <taut/impl/io/write_volume.hpp>
+#include <taut/errors.hpp>
+#include <taut/impl/files/volume/read_volume.hpp>
+#include <taut/impl/files/volume/write_volume.hpp>
+#include <taut/volume_file.hpp>
 
 #include "support/temporary_folder.hpp"
 #include "support/volume_promises.hpp"
@@ -74,6 +75,46 @@ TEST_CASE("TetGen: either name reads and writes all files")
     CHECK_THROWS_WITH_AS(three.write(folder / "in.ele", points), doctest::Contains("is the input"), io::io_error);
     std::filesystem::remove(folder / "in.ele");
     CHECK_THROWS_AS(io::read_volume_file(folder / "in.node"), io::io_error);
+}
+
+TEST_CASE("TetGen: files beside an output that are no part of it are left alone")
+{
+    const test::temporary_folder folder;
+    const auto s = test::small_volume(false);
+    folder.write(folder / "in.node", test::tetgen_nodes(s));
+    folder.write(folder / "in.ele", test::tetgen_cells(s, cell_kind::tetrahedron));
+    const auto file = io::read_volume_file(folder / "in.node");
+    const auto refuses = [&](const char* name, const char* other)
+    {
+        folder.write(folder / other, "mine");
+        CHECK_THROWS_WITH_AS(file.write(folder / name, file.points), doctest::Contains(other), io::io_error);
+        CHECK(folder.read(folder / other) == "mine");
+        std::filesystem::remove(folder / other);
+        CHECK(folder.entries() == 2);
+    };
+    refuses("out.node", "out.ele");
+    refuses("out.ele", "out.node");
+    refuses("out.node", "out.face");
+    refuses("out", "out.node");
+
+    file.write(folder / "out.node", file.points);
+    file.write(folder / "out.ele", file.points); // its own
+    folder.write(folder / "out.face", "mine");
+    CHECK_THROWS_WITH_AS(file.write(folder / "out.node", file.points), doctest::Contains("another mesh"), io::io_error);
+    CHECK(folder.read(folder / "out.face") == "mine");
+    std::filesystem::remove(folder / "out.face");
+
+    // A link beside it leads to somebody else's, be it there or not.
+    const test::temporary_folder elsewhere;
+    elsewhere.write(elsewhere / "mine", "mine");
+    for (const char* name : {"mine", "none"})
+    {
+        std::filesystem::remove(folder / "out.ele");
+        if (!test::make_link(elsewhere / name, folder / "out.ele")) return;
+        CHECK_THROWS_WITH_AS(file.write(folder / "out.node", file.points), doctest::Contains("out.ele"), io::io_error);
+    }
+    CHECK(elsewhere.read(elsewhere / "mine") == "mine");
+    CHECK(elsewhere.entries() == 1);
 }
 
 TEST_CASE("TetGen: errors name the file and the line")

@@ -12,12 +12,12 @@
 #include <doctest/doctest.h>
 
 #include <support/temporary_folder.hpp>
-#include <taut/impl/io/file/plain_file.hpp>
-#include <taut/impl/io/io_error.hpp>
-#include <taut/impl/io/read_file.hpp>
-#include <taut/impl/io/read_surface.hpp>
-#include <taut/impl/io/write_files.hpp>
-#include <taut/impl/io/write_obj.hpp>
+#include <taut/errors.hpp>
+#include <taut/files.hpp>
+#include <taut/impl/files/file/atomic_file_bodies.hpp>
+#include <taut/impl/files/file/plain_file.hpp>
+#include <taut/impl/files/file/read_file.hpp>
+#include <taut/surface_file.hpp>
 
 using namespace taut;
 using test::temporary_folder;

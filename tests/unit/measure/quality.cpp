@@ -6,7 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/measure/quality.hpp>
+#include <taut/impl/core/measure/singular_values.hpp>
+#include <taut/quality.hpp>
 
 #include "support/meshes.hpp"
 

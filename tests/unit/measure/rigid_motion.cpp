@@ -6,7 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/measure/rigid_motion.hpp>
+#include <taut/impl/core/measure/rigid_motion.hpp>
+#include <taut/rigid_motion.hpp>
 
 using namespace taut;
 

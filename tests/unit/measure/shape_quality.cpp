@@ -6,8 +6,9 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/measure/shape_quality.hpp>
-#include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/core/measure/shape_quality.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
+#include <taut/quality.hpp>
 
 using namespace taut;
 using namespace taut::impl;

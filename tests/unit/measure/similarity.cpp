@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/measure/similarity.hpp>
+#include <taut/impl/core/measure/similarity.hpp>
 
 using namespace taut;
 using namespace taut::impl;

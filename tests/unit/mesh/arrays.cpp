@@ -7,8 +7,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/certify.hpp>
+#include <taut/mesh.hpp>
 
 using namespace taut;
 

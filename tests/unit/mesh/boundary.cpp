@@ -2,7 +2,8 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/mesh/boundary.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/mesh.hpp>
 
 namespace
 {

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <taut/eigen.hpp>
+#include <taut/evaluator.hpp>
 
 using namespace taut;
 using namespace taut::impl;

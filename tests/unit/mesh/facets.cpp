@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/mesh/facets.hpp>
+#include <taut/impl/core/mesh/facets.hpp>
 
 namespace
 {

@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/mesh/first_flip.hpp>
+#include <taut/impl/core/mesh/first_flip.hpp>
 
 using namespace taut;
 using namespace taut::impl;

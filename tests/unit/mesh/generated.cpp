@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/mesh/incidence.hpp>
+#include <taut/impl/core/mesh/incidence.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -5,8 +5,8 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/core/linalg.hpp>
-#include <taut/impl/mesh/ideal.hpp>
+#include <taut/impl/core/mesh/ideal.hpp>
+#include <taut/types.hpp>
 
 // Small numbers are compared as ratios: doctest's Approx is absolute below 1.
 namespace

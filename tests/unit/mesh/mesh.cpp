@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/mesh/mesh.hpp>
+#include <taut/mesh.hpp>
 
 namespace
 {

@@ -7,8 +7,8 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/mesh/incidence.hpp>
-#include <taut/impl/mesh/order.hpp>
+#include <taut/impl/core/mesh/incidence.hpp>
+#include <taut/impl/core/mesh/order.hpp>
 
 namespace
 {

@@ -8,9 +8,10 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/mesh/boundary.hpp>
-#include <taut/impl/mesh/refine_elements.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/impl/core/mesh/refine_elements.hpp>
+#include <taut/mesh.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -7,7 +7,8 @@
 
 #include <support/contains.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/mesh/validate.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
 
 namespace
 {
@@ -16,7 +17,7 @@ using taut::test::contains;
 using namespace taut;
 using taut::idx;
 
-std::vector<mesh_error::fault_type> faults(const std::vector<taut::impl::mesh_finding>& found)
+std::vector<mesh_error::fault_type> faults(const std::vector<taut::mesh_finding>& found)
 {
     std::vector<mesh_error::fault_type> r;
     for (const auto& f : found) r.push_back(f.fault);
@@ -25,7 +26,7 @@ std::vector<mesh_error::fault_type> faults(const std::vector<taut::impl::mesh_fi
 
 /// The only finding of check(); the test fails if there are more or none.
 template <class Element>
-taut::impl::mesh_finding only_finding(const mesh<Element>& m)
+taut::mesh_finding only_finding(const mesh<Element>& m)
 {
     const auto found = check(m);
     REQUIRE(found.size() == 1);

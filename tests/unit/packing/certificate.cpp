@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <support/chart_sets.hpp>
-#include <taut/impl/packing/certificate.hpp>
+#include <taut/pack.hpp>
 
 namespace
 {

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/chart_sets.hpp>
-#include <taut/impl/packing/chart_overlaps.hpp>
+#include <taut/impl/charts/packing/chart_overlaps.hpp>
 
 namespace
 {

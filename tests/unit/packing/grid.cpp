@@ -9,8 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <support/chart_sets.hpp>
-#include <taut/impl/packing/certificate.hpp>
-#include <taut/impl/packing/pack.hpp>
+#include <taut/pack.hpp>
 
 namespace
 {

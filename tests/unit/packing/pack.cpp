@@ -8,8 +8,8 @@
 #include <doctest/doctest.h>
 
 #include <support/chart_sets.hpp>
-#include <taut/impl/packing/certificate.hpp>
-#include <taut/impl/packing/pack.hpp>
+#include <taut/impl/charts/packing/pack.hpp>
+#include <taut/pack.hpp>
 
 namespace
 {

@@ -9,8 +9,9 @@
 
 #include <support/size.hpp>
 #include <support/untangle_checks.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
-#include <taut/impl/untangle/untangle_host.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
+#include <taut/impl/core/untangle/untangle_host.hpp>
+#include <taut/untangle.hpp>
 
 namespace
 {

@@ -8,8 +8,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/mesh/validate.hpp>
-#include <taut/impl/repair/repair_surface.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
+#include <taut/repair.hpp>
 
 namespace
 {

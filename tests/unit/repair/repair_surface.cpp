@@ -15,8 +15,10 @@
 
 #include <support/extreme_meshes.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/mesh/validate.hpp>
-#include <taut/impl/repair/repair_surface.hpp>
+#include <taut/impl/charts/repair/repair_surface.hpp>
+#include <taut/impl/core/mesh/validate.hpp>
+#include <taut/mesh.hpp>
+#include <taut/repair.hpp>
 
 namespace
 {
@@ -348,6 +350,19 @@ TEST_CASE(
             CHECK(count_near_edges(s.points, s.cells, repair_params::usual_tolerance(s.points, s.cells)) ==
                   s.points.size());
         }
+    // Round numbers of one axis, as of an extrusion, are no digits of the others.
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        auto extruded = raw(m);
+        for (vec3& p : extruded.points)
+        {
+            for (int k = 0; k < 3; ++k) p[k] = std::sin(700 * p[k] + k);
+            p[axis] = p[axis] > 0 ? 1000 : 999;
+        }
+        const double usual = repair_params::usual_tolerance(extruded.points, extruded.cells);
+        CHECK(usual < 1e-6);
+        CHECK(usual > 0);
+    }
     auto s = apart(m);
     for (vec3& p : s.points)
         for (int k = 0; k < 3; ++k)

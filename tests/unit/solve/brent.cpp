@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/impl/solve/line/brent.hpp>
+#include <taut/impl/core/solve/line/brent.hpp>
 
 #include <cmath>
 #include <limits>

@@ -8,6 +8,8 @@
 #include <functional>
 #include <string>
 
+#include <taut/impl/core/solve/stop.hpp>
+
 using namespace taut::solve;
 using namespace taut::solve::impl;
 

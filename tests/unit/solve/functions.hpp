@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <taut/impl/solve/minimize.hpp>
+#include <taut/solve.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/impl/solve/minimize.hpp>
+#include <taut/solve.hpp>
 
 #include <cstddef>
 #include <span>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <doctest/doctest.h>
 
-#include <taut/impl/solve/host_space.hpp>
+#include <taut/impl/core/solve/host_space.hpp>
+#include <taut/solve.hpp>
 
 #include <array>
 #include <limits>

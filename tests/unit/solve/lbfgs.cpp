@@ -5,6 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include <taut/impl/core/solve/objective_bodies.hpp>
+#include <taut/impl/core/solve/stop.hpp>
+
 #include "support/two_loop.hpp"
 #include <doctest/doctest.h>
 

@@ -3,10 +3,11 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/solve/line/backtracking.hpp>
-#include <taut/impl/solve/line/bracket.hpp>
-#include <taut/impl/solve/line/hybrid.hpp>
-#include <taut/impl/solve/line/strong_wolfe.hpp>
+#include <taut/impl/core/solve/line/backtracking.hpp>
+#include <taut/impl/core/solve/line/bracket.hpp>
+#include <taut/impl/core/solve/line/hybrid.hpp>
+#include <taut/impl/core/solve/line/line_search.hpp>
+#include <taut/impl/core/solve/line/strong_wolfe.hpp>
 
 #include <functional>
 #include <string>

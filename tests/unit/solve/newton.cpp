@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "functions.hpp"
 
-#include <taut/impl/solve/newton.hpp>
+#include <taut/impl/core/solve/newton.hpp>
+#include <taut/impl/core/solve/stop.hpp>
 
 #include <doctest/doctest.h>
 

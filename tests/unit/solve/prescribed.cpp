@@ -5,8 +5,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/solve/host_objective.hpp>
-#include <taut/impl/solve/prescribed.hpp>
+#include <taut/impl/core/solve/prescribed.hpp>
+#include <taut/solve.hpp>
 
 using namespace taut::solve;
 using namespace taut::solve::impl;

@@ -4,7 +4,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/solve/report.hpp>
+#include <taut/impl/core/solve/report.hpp>
+#include <taut/solve_params.hpp>
 
 using namespace taut::solve;
 using namespace taut::solve::impl;

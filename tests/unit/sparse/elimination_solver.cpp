@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 
 #include "support/meshes.hpp"
-#include <taut/impl/start/barycentric_map.hpp>
-#include <taut/impl/start/make_barycentric_system.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
+#include <taut/impl/core/start/make_barycentric_system.hpp>
 
 namespace
 {

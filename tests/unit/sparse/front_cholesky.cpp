@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/start/isometric_newton.hpp>
+#include <taut/impl/core/start/isometric_newton.hpp>
 
 namespace
 {

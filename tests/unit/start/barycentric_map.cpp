@@ -6,8 +6,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/exact/crossings.hpp>
-#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/certify.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
 
 #include "support/meshes.hpp"
 

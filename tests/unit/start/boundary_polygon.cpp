@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/start/barycentric_map.hpp>
+#include <taut/impl/core/start/barycentric_map.hpp>
 
 #include "support/meshes.hpp"
 

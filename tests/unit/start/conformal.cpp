@@ -4,8 +4,8 @@
 #include <doctest/doctest.h>
 
 #include <support/extreme_meshes.hpp>
-#include <taut/impl/measure/singular_values.hpp>
-#include <taut/impl/start/conformal.hpp>
+#include <taut/impl/core/measure/singular_values.hpp>
+#include <taut/impl/core/start/conformal.hpp>
 
 namespace
 {

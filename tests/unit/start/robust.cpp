@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <support/extreme_meshes.hpp>
-#include <taut/impl/start/coarse_start.hpp>
+#include <taut/impl/core/start/coarse_start.hpp>
 
 namespace
 {
@@ -18,13 +18,13 @@ using taut::impl::robust_start;
 using surface = taut::mesh<taut::triangle>;
 
 /// Valid, at the scale of least energy, and below a bound.
-void require_good(const taut::impl::start_map& map, const surface& m, double most)
+void require_good(const taut::start_map& map, const surface& m, double most)
 {
     REQUIRE(map.uv.size() == m.points().size());
     const taut::impl::ideal_elements<taut::triangle> ideal(m);
-    taut::impl::start_map again;
+    taut::start_map again;
     again.uv = map.uv;
-    again.assess(m, ideal);
+    assess(again, m, ideal);
     CHECK(map.flips.flipped == 0);
     CHECK(again.flips.flipped == 0);
     CHECK(map.distortion.measure == doctest::Approx(again.distortion.measure).epsilon(1e-9));
@@ -34,7 +34,7 @@ void require_good(const taut::impl::start_map& map, const surface& m, double mos
     {
         again.uv = map.uv;
         for (vec2& p : again.uv) p *= s;
-        again.assess(m, ideal);
+        assess(again, m, ideal);
         CHECK(again.distortion.measure > map.distortion.measure);
     }
 }
@@ -116,6 +116,61 @@ TEST_CASE("robust start: surfaces with holes are mapped with their holes")
     require_good(map, m, 4.01);
     const auto ring = taut::test::annulus(40);
     require_good(robust_start(ring), ring, 4.2);
+}
+
+TEST_CASE("tube start: a long tube with both ends open is mapped on concentric rings, and other surfaces are not")
+{
+    // around: vertices of a ring; taper: the last radius by the first one; bend: the angle of the whole tube
+    struct tube
+    {
+        int around, rings;
+        double spacing, taper = 1, bend = 0, noise = 0;
+        bool hole = false;
+    };
+    for (const auto& t :
+         {tube{6, 101, 0.6}, tube{8, 101, 0.5}, tube{6, 200, 1.5}, tube{32, 120, 1}, tube{12, 150, 0.25, 0.2},
+          tube{8, 150, 0.4, 1, 3}, tube{8, 150, 0.4, 1, 0, 0.02}, tube{6, 150, 0.5, 1, 0, 0, true}})
+    {
+        CAPTURE(t.around);
+        CAPTURE(t.rings);
+        std::vector<vec3> points;
+        std::vector<std::array<idx, 3>> cells;
+        double area = 0, along = 0;
+        const auto wave = [&](int k) { return t.noise * std::sin(37.0 * k * k); };
+        for (int k = 0; k < t.rings; ++k)
+            for (int i = 0; i < t.around; ++i)
+            {
+                const double a = 2 * std::numbers::pi * i / t.around, s = k * t.spacing;
+                const double r = 0.5 * (1 + (t.taper - 1) * k / (t.rings - 1));
+                const double x = r * std::cos(a) + wave(3 * (k * t.around + i)),
+                             y = r * std::sin(a) + wave(k * t.around + i);
+                const double length = (t.rings - 1) * t.spacing;
+                points.emplace_back(t.bend == 0 ? vec3(x, y, s)
+                                                : vec3((length / t.bend + x) * std::cos(s / length * t.bend), y,
+                                                       (length / t.bend + x) * std::sin(s / length * t.bend)));
+            }
+        for (int k = 0; k + 1 < t.rings; ++k)
+            for (int i = 0; i < t.around; ++i)
+            {
+                if (t.hole && k == t.rings / 2 && i == 0) continue;
+                const idx a = k * t.around + i, b = k * t.around + (i + 1) % t.around;
+                cells.push_back({a, b, b + t.around});
+                cells.push_back({a, b + t.around, a + t.around});
+            }
+        const surface m(points, cells);
+        for (const auto& c : cells)
+        {
+            const auto at = [&](std::size_t k) { return points[std::size_t(c[k])]; };
+            area += glm::length(glm::cross(at(1) - at(0), at(2) - at(0))) / 2;
+        }
+        along = (t.rings - 1) * t.spacing;
+        require_good(
+            taut::impl::tube_start(m, taut::impl::ideal_elements<taut::triangle>(m), taut::boundary_loops(m), {}), m,
+            9 * along * along / area);
+    }
+    for (const auto& m : {with_hole(20), taut::test::annulus(40), taut::test::grid(4, 4)})
+        CHECK(taut::impl::tube_start(m, taut::impl::ideal_elements<taut::triangle>(m), taut::boundary_loops(m), {})
+                  .uv.empty());
 }
 
 TEST_CASE("robust start: a fixed boundary stays on the outline")

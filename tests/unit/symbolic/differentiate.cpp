@@ -4,8 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/symbolic/cast.hpp>
-#include <taut/impl/symbolic/differentiate.hpp>
+#include <taut/symbolic.hpp>
 
 #include "numeric.hpp"
 

@@ -9,9 +9,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/symbolic/differentiate.hpp>
-#include <taut/impl/symbolic/loop.hpp>
-#include <taut/impl/symbolic/recording.hpp>
+#include <taut/impl/core/symbolic/literal.hpp>
+#include <taut/recording.hpp>
+#include <taut/symbolic.hpp>
 
 using taut::sym;
 using taut::impl::literal;
@@ -87,7 +87,7 @@ TEST_CASE("emit: a kernel is one statement an operation, in the order of the rec
     const auto i = r.global_id();
     const auto product = a * x[i]; // C++ leaves the order of evaluation in a sum to the compiler
     y[i] = product + y[i] / 2;
-    const taut::impl::kernel_text k = r.finish("axpy");
+    const taut::kernel_text k = r.finish("axpy");
     CHECK(k.name == "axpy");
     CHECK(k.source == "#pragma OPENCL EXTENSION cl_khr_fp64 : enable\n"
                       "__kernel void axpy(__global const double* x, __global double* y, const double a)\n"
@@ -99,10 +99,10 @@ TEST_CASE("emit: a kernel is one statement an operation, in the order of the rec
                       "    const double t3 = a * t0 + t2;\n"
                       "    y[i0] = t3;\n"
                       "}\n");
-    using taut::impl::argument_kind, taut::scalar_type;
-    CHECK(k.arguments == std::vector<taut::impl::kernel_argument>{{"x", argument_kind::in, scalar_type::f64},
-                                                                  {"y", argument_kind::inout, scalar_type::f64},
-                                                                  {"a", argument_kind::scalar, scalar_type::f64}});
+    using taut::argument_kind, taut::scalar_type;
+    CHECK(k.arguments == std::vector<taut::kernel_argument>{{"x", argument_kind::in, scalar_type::f64},
+                                                            {"y", argument_kind::inout, scalar_type::f64},
+                                                            {"a", argument_kind::scalar, scalar_type::f64}});
 }
 
 TEST_CASE("emit: arguments that are used at the plain index are known, those at other places or in a loop are not")
@@ -208,7 +208,7 @@ TEST_CASE("emit: a product is written inside of the one sum that needs it, so th
 
 TEST_CASE("emit: the forms of a kernel differ only in the indices that a work-item has")
 {
-    const auto record = [](taut::impl::kernel_form form)
+    const auto record = [](taut::kernel_form form)
     {
         taut::recording r;
         const auto x = r.in<float>("x");
@@ -217,7 +217,7 @@ TEST_CASE("emit: the forms of a kernel differ only in the indices that a work-it
         y[i] = -x[i];
         return r.finish("f", form);
     };
-    const auto item = record(taut::impl::kernel_form::item);
+    const auto item = record(taut::kernel_form::item);
     CHECK(item.source == "__kernel void f(__global const float* x, __global float* y)\n"
                          "{\n"
                          "    const int i0 = get_global_id(0);\n"
@@ -227,7 +227,7 @@ TEST_CASE("emit: the forms of a kernel differ only in the indices that a work-it
                          "}\n");
     CHECK(item.arguments.size() == 2);
 
-    const auto guarded = record(taut::impl::kernel_form::guarded);
+    const auto guarded = record(taut::kernel_form::guarded);
     CHECK(guarded.source == "__kernel void f(__global const float* x, __global float* y, const int taut_count)\n"
                             "{\n"
                             "    const int i0 = get_global_id(0);\n"
@@ -236,10 +236,10 @@ TEST_CASE("emit: the forms of a kernel differ only in the indices that a work-it
                             "    const float t1 = -t0;\n"
                             "    y[i0] = t1;\n"
                             "}\n");
-    const taut::impl::kernel_argument count{"taut_count", taut::impl::argument_kind::scalar, taut::scalar_type::i32};
+    const taut::kernel_argument count{"taut_count", taut::argument_kind::scalar, taut::scalar_type::i32};
     CHECK(guarded.arguments.back() == count);
 
-    const auto run = record(taut::impl::kernel_form::run);
+    const auto run = record(taut::kernel_form::run);
     CHECK(run.source == "#pragma clang diagnostic ignored \"-Wpass-failed\"\n"
                         "__kernel void f(__global const float* x, __global float* y, const int taut_count)\n"
                         "{\n"
@@ -254,9 +254,9 @@ TEST_CASE("emit: the forms of a kernel differ only in the indices that a work-it
                         "    }\n"
                         "}\n");
     CHECK(run.arguments.back() == count);
-    CHECK(run.form == taut::impl::kernel_form::run);
+    CHECK(run.form == taut::kernel_form::run);
 
-    const auto part = record(taut::impl::kernel_form::part);
+    const auto part = record(taut::kernel_form::part);
     CHECK(part.source == "#pragma clang diagnostic ignored \"-Wpass-failed\"\n"
                          "static void f(__global const float* x, __global float* y, const int taut_first, "
                          "const int taut_last, const int taut_step)\n"
@@ -274,7 +274,7 @@ TEST_CASE("emit: the forms of a kernel differ only in the indices that a work-it
 
 TEST_CASE("emit: a kernel of seldom use is compiled without optimisations for CPUs, and is the same otherwise")
 {
-    using taut::impl::kernel_form, taut::impl::kernel_use;
+    using taut::kernel_form, taut::kernel_use;
     taut::recording r;
     const auto x = r.inout<float>("x");
     x[r.global_id()] = 2.0f * x[r.global_id()];

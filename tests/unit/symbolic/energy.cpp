@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/symbolic/differentiate.hpp>
-#include <taut/impl/symbolic/glm.hpp>
-#include <taut/impl/symbolic/recording.hpp>
+#include <taut/recording.hpp>
+#include <taut/symbolic.hpp>
+#include <taut/traced_vectors.hpp>
 
 #include "numeric.hpp"
 
@@ -66,7 +66,7 @@ void check_energy(double p)
     const sample<T, D> at;
     deformed<sym<T>, D> e;
     std::vector<sym<T>> x;
-    std::vector<taut::impl::binding> values;
+    std::vector<taut::binding> values;
     for (int k = 0; k < D * D; ++k)
     {
         x.push_back(e.S[k / D][k % D] = sym<T>::variable());
@@ -114,7 +114,7 @@ TEST_CASE("energy: second derivatives are symmetric and agree with differences o
 
     const auto bind = [&](int entry, double offset)
     {
-        std::vector<taut::impl::binding> values;
+        std::vector<taut::binding> values;
         for (int k = 0; k < D * D; ++k)
             values.emplace_back(x[std::size_t(k)], at.S[k / D][k % D] + (k == entry ? offset : 0));
         return values;

@@ -3,8 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/symbolic/differentiate.hpp>
-#include <taut/impl/symbolic/glm.hpp>
+#include <taut/symbolic.hpp>
+#include <taut/traced_vectors.hpp>
 
 #include "numeric.hpp"
 
@@ -24,7 +24,7 @@ struct traced_matrix
     taut::mat<D, sym<T>> traced;
     taut::mat<D, double> host;
     std::vector<sym<T>> entries;
-    std::vector<taut::impl::binding> values;
+    std::vector<taut::binding> values;
 
     traced_matrix()
     {

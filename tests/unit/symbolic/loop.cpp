@@ -3,10 +3,8 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/symbolic/differentiate.hpp>
-#include <taut/impl/symbolic/evaluate.hpp>
-#include <taut/impl/symbolic/loop.hpp>
-#include <taut/impl/symbolic/recording.hpp>
+#include <taut/recording.hpp>
+#include <taut/symbolic.hpp>
 
 using taut::sum_over;
 using taut::sym;

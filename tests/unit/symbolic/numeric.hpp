@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <taut/impl/symbolic/evaluate.hpp>
+#include <taut/symbolic.hpp>
 
 /// Relative agreement, absolute below 1.
 template <class T>

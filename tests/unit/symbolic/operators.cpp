@@ -5,8 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/symbolic/cast.hpp>
-#include <taut/impl/symbolic/evaluate.hpp>
+#include <taut/symbolic.hpp>
 
 using taut::evaluate;
 using taut::sym;

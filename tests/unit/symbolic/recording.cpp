@@ -3,10 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/symbolic/differentiate.hpp>
-#include <taut/impl/symbolic/evaluate.hpp>
-#include <taut/impl/symbolic/loop.hpp>
-#include <taut/impl/symbolic/recording.hpp>
+#include <taut/impl/core/symbolic/literal.hpp>
+#include <taut/recording.hpp>
+#include <taut/symbolic.hpp>
 
 using taut::sym;
 
@@ -94,7 +93,7 @@ TEST_CASE("recording: indices are arithmetic, may be loaded, and never leave 32 
     const auto i = r.global_id();
     const auto j = r.global_id(1);
     y[i + n * j] = x[cells[i] * 2] + x[cells[i + n] * 2 + 1];
-    const taut::impl::kernel_text k = r.finish("gather");
+    const taut::kernel_text k = r.finish("gather");
     CHECK(k.source.find("__global const int* cells, const int n, __global double* y") != std::string::npos);
     CHECK(k.source.find("get_global_id(1)") != std::string::npos);
     CHECK(k.source.find("long") == std::string::npos);
@@ -157,7 +156,7 @@ TEST_CASE("recording: a recording is current while it lives")
 TEST_CASE("recording: a kernel in float is written with doubles, and mentions none")
 {
     using taut::scalar_type;
-    const auto record = [](scalar_type type, taut::impl::kernel_form form)
+    const auto record = [](scalar_type type, taut::kernel_form form)
     {
         taut::recording r(type);
         const auto x = r.in<double>("x", type);
@@ -180,8 +179,7 @@ TEST_CASE("recording: a kernel in float is written with doubles, and mentions no
         z[i + 1] = select(chosen > 0.5, sym<double>(1.0), sym<double>(0.0));
         return r.finish("f", form).source;
     };
-    for (const auto form :
-         {taut::impl::kernel_form::item, taut::impl::kernel_form::guarded, taut::impl::kernel_form::run})
+    for (const auto form : {taut::kernel_form::item, taut::kernel_form::guarded, taut::kernel_form::run})
     {
         const std::string narrow = record(scalar_type::f32, form), wide = record(scalar_type::f64, form);
         CHECK(narrow.find("double") == std::string::npos);

@@ -3,8 +3,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/symbolic/evaluate.hpp>
-#include <taut/impl/symbolic/sym.hpp>
+#include <taut/symbolic.hpp>
 
 using taut::sym;
 

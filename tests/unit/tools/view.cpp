@@ -183,6 +183,9 @@ TEST_CASE("the gate of a page: this machine by its own names, its own pages, and
     CHECK(g.token() != gate(4711).token());
     CHECK(g.is_local("127.0.0.1:4711"));
     CHECK(g.is_local("localhost:4711"));
+    CHECK_FALSE(g.is_local("localhost")); // browsers leave out port 80 alone
+    CHECK(gate(80).is_own("http://127.0.0.1", "127.0.0.1"));
+    CHECK(gate(80).is_local("localhost:80"));
     for (const char* host : {"", "127.0.0.1", "localhost", "evil.example:4711", "127.0.0.1:4712", "127.0.0.1:47110",
                              "localhost.evil.example:4711", "[::1]:4711"})
         CHECK_FALSE(g.is_local(host));

@@ -8,7 +8,8 @@
 #include <support/untangle_checks.hpp>
 #include <support/winding.hpp>
 
-#include <taut/impl/untangle/untangle_host.hpp>
+#include <taut/impl/core/untangle/untangle_host.hpp>
+#include <taut/untangle.hpp>
 
 namespace
 {

@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-#include <taut/impl/untangle/convex_corners.hpp>
+#include <taut/impl/core/untangle/convex_corners.hpp>
 
 namespace
 {

@@ -9,10 +9,12 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/exact/predicates.hpp>
-#include <taut/impl/mesh/boundary.hpp>
-#include <taut/impl/untangle/proofs/crowded_edge.hpp>
-#include <taut/impl/untangle/untangle_host.hpp>
+#include <taut/impl/core/exact/predicates.hpp>
+#include <taut/impl/core/mesh/boundary.hpp>
+#include <taut/impl/core/untangle/proofs/crowded_edge.hpp>
+#include <taut/impl/core/untangle/untangle_host.hpp>
+#include <taut/mesh.hpp>
+#include <taut/untangle.hpp>
 
 using namespace taut;
 using namespace taut::impl;

@@ -8,8 +8,8 @@
 #include <doctest/doctest.h>
 
 #include <support/meshes.hpp>
-#include <taut/impl/exact/certify.hpp>
-#include <taut/impl/untangle/proofs/infeasible.hpp>
+#include <taut/certify.hpp>
+#include <taut/untangle.hpp>
 
 using namespace taut;
 using namespace taut::impl;
@@ -235,6 +235,52 @@ TEST_CASE("infeasible: a free vertex in a pinned ring needs a place that sees al
     const std::vector<vec2> arrow{{0, 0}, {4, 0}, {1, 0.5}, {0, 4}};
     for (std::size_t k = 0; k < 4; ++k) thin.initial[k + 1] = arrow[k];
     CHECK(!find_infeasibility(thin));
+}
+
+TEST_CASE("infeasible: a free vertex in space between opposite half-spaces has no place, exactly")
+{
+    // An octahedron about vertex 0: eight tetrahedra, all of whose other corners are pinned.
+    const std::vector<vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    std::vector<std::array<taut::idx, 4>> cells;
+    for (const taut::idx k : {0, 1, 2, 3})
+    {
+        const taut::idx a = 1 + k, b = 1 + (k + 1) % 4;
+        cells.push_back({0, a, b, 5});
+        cells.push_back({0, b, a, 6});
+    }
+    const mesh<tetrahedron> m(points, cells);
+    const auto at_rest = [&] { return problem(m, rest_map(m), [](taut::idx v) { return v != 0; }); };
+    auto p = at_rest();
+    CHECK(!find_infeasibility(p));
+    p.initial[0] = vec3(0, 0, 3); // outside: it has a place all the same
+    CHECK(!find_infeasibility(p));
+    p.initial[0] = vec3(0.1, 0.1, 0);
+    p.initial[5] = vec3(0, 0, -0x1p-12), p.initial[6] = vec3(0, 0, 0x1p-12); // the apices change sides, by little
+    auto found = find_infeasibility(p);
+    REQUIRE(proves(found, kind::empty_star));
+    CHECK(found.proofs[0].ids.size() == 5);
+    CHECK(found.proofs[0].ids[0] == 0);
+    CHECK(found.reason().find("tetrahedra are positive, as") != std::string::npos);
+    // A floor of two tetrahedra of which one is turned over in its plane: above it and below.
+    const mesh<tetrahedron> floor({{0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+                                  {{0, 1, 3, 2}, {0, 2, 3, 4}});
+    auto folded = problem(floor, rest_map(floor), [](taut::idx v) { return v != 0; });
+    CHECK(!find_infeasibility(folded));
+    folded.initial[4] = vec3(-1, -1, 0);
+    found = find_infeasibility(folded);
+    REQUIRE(proves(found, kind::empty_star));
+    CHECK(found.proofs[0].ids == std::vector<taut::idx>{0, 0, 1, 1, 1});
+    folded.initial[4] = vec3(-1, -1, -1e-300); // now there is room, if only there
+    CHECK(!find_infeasibility(folded));
+    // The corners of cells of other kinds have to be positive as well.
+    folded.initial[4] = vec3(-1, -1, 0);
+    folded.owners = {0, 0};
+    CHECK(proves(find_infeasibility(folded), kind::empty_star));
+    // A coordinate that is fixed takes part: all of the others would be free to choose.
+    auto level = at_rest();
+    level.held[0] = 4;
+    level.initial[0] = vec3(0, 0, 2);
+    CHECK(proves(find_infeasibility(level), kind::empty_star));
 }
 
 TEST_CASE("infeasible: within a simple pinned boundary every pin has its own place")

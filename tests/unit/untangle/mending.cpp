@@ -7,7 +7,8 @@
 
 #include <support/infeasible_problems.hpp>
 #include <support/meshes.hpp>
-#include <taut/impl/untangle/untangle_refined.hpp>
+#include <taut/impl/core/untangle/untangle_refined.hpp>
+#include <taut/untangle.hpp>
 
 using namespace taut;
 using namespace taut::impl;

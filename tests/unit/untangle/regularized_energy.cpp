@@ -9,8 +9,8 @@
 #include <support/meshes.hpp>
 
 #include <support/regularized_sum.hpp>
-#include <taut/impl/energy/modes.hpp>
-#include <taut/impl/untangle/epsilon_schedule.hpp>
+#include <taut/impl/core/energy/modes.hpp>
+#include <taut/impl/core/untangle/epsilon_schedule.hpp>
 
 namespace
 {

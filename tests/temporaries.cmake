@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: MIT
+# Temporary files of all tests are in a folder of the build; the last test that is run looks that nothing was left in it.
+set(temporaries ${PROJECT_BINARY_DIR}/temporary)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/temporaries.cmake CONTENT "file(MAKE_DIRECTORY \"${temporaries}\")
+set(ENV{TMPDIR} \"${temporaries}\")
+")
+set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${PROJECT_BINARY_DIR}/temporaries.cmake)
+
+function(taut_tests_below folder result)
+    get_property(tests DIRECTORY ${folder} PROPERTY TESTS)
+    get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+    foreach(one ${folders})
+        taut_tests_below(${one} more)
+        list(APPEND tests ${more})
+    endforeach()
+    set(${result} ${tests} PARENT_SCOPE)
+endfunction()
+taut_tests_below(${PROJECT_SOURCE_DIR} tests)
+add_test(NAME house.temporaries COMMAND ${CMAKE_COMMAND} -DFOLDER=${temporaries} -P ${CMAKE_CURRENT_LIST_DIR}/house/temporaries.cmake)
+set_tests_properties(house.temporaries PROPERTIES DEPENDS "${tests}")
