@@ -3,6 +3,7 @@
 import base64
 import json
 import os
+import signal
 import subprocess
 import tempfile
 import time
@@ -28,7 +29,8 @@ class Browser:
              "--disable-background-networking", "--disable-component-update", "--force-device-scale-factor=1",
              "--remote-debugging-pipe", f"--window-size={size[0]},{size[1]}",
              f"--user-data-dir={self.profile.name}", "about:blank"],
-            preexec_fn=pipes, close_fds=False, stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+            preexec_fn=pipes, close_fds=False, start_new_session=True,
+            stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
         os.close(to_child)
         os.close(from_child)
         self.pending = b""
@@ -48,14 +50,18 @@ class Browser:
         return self
 
     def __exit__(self, *_):
-        self.process.kill()
+        os.killpg(self.process.pid, signal.SIGKILL)
         self.process.wait()
         os.close(self.to)
         os.close(self.back)
-        try:
-            self.profile.cleanup()
-        except OSError:  # its last processes may still write
-            pass
+        last = time.monotonic() + 30
+        while os.path.exists(self.profile.name):  # processes that are about to end may still write
+            try:
+                self.profile.cleanup()
+            except OSError:
+                if time.monotonic() > last:
+                    raise
+                time.sleep(0.1)
 
     def call(self, method, **params):
         """The result of a command; what else comes in between is kept in events."""

@@ -402,15 +402,15 @@ def export(path: Any, positions: Any, indices: Any = None, uvs: Any = None, norm
     """Writes an OBJ file."""
     with np.errstate(over="ignore"):  # is said of the array
         points = _rows("Position", positions, 3, np.float32)
-        rows = [_rows(what, value, columns, np.float32, len(points))
-                for what, value, columns in (("Normal", normals, 3), ("UV", uvs, 2)) if value is not None]
-    if not all(np.isfinite(a).all() for a in (points, *rows)):
+        vn = None if normals is None else _rows("Normal", normals, 3, np.float32, len(points))
+        vt = None if uvs is None else _rows("UV", uvs, 2, np.float32, len(points))
+    if not all(np.isfinite(a).all() for a in (points, vn, vt) if a is not None):
         raise ValueError("Positions, normals and UVs must be finite, as float32, too.")
     lines = [f"v {x:.9g} {y:.9g} {z:.9g}" for x, y, z in points]
-    if normals is not None:
-        lines += [f"vn {x:.9g} {y:.9g} {z:.9g}" for x, y, z in _rows("Normal", normals, 3, np.float32, len(points))]
-    if uvs is not None:
-        lines += [f"vt {u:.9g} {v:.9g}" for u, v in _rows("UV", uvs, 2, np.float32, len(points))]
+    if vn is not None:
+        lines += [f"vn {x:.9g} {y:.9g} {z:.9g}" for x, y, z in vn]
+    if vt is not None:
+        lines += [f"vt {u:.9g} {v:.9g}" for u, v in vt]
     faces = np.arange(len(points)).reshape(-1, 3) if indices is None else _rows("Index", indices, 3, np.int64)
     if faces.size and (faces.min() < 0 or faces.max() >= len(points)):
         raise ValueError(f"Index array names {faces.min()} to {faces.max()}, but there are {len(points)} positions.")
