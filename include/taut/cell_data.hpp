@@ -16,7 +16,7 @@ namespace taut
 /// energies. All parts are optional.
 struct cell_data
 {
-    /// One per cell, positive: a factor of its weight in the sum of energies (a painted importance).
+    /// One per cell, from 1e-100 to 1e100: a factor of its weight in the sum of energies (a painted importance).
     std::vector<double> weights = {};
 
     /// Numbers per cell, attribute k of cell c at [c * attribute_count + k]; an energy reads e.attribute(k).

@@ -194,16 +194,11 @@ baked_texture texture_baker::bake_tile(const bake_task& task, bool back, const s
             params.width = std::max(params.width, rows->rows.width);
             params.height = std::max(params.height, rows->rows.height);
         }
-    if (!back)
-        for (const auto& [other, triangles] : parts)
-        {
-            const auto image = images.at(other);
-            require_room(task, params.width, params.height, image->rows.channels, image->numbers);
-        }
     baked_texture whole;
     for (const auto& [other, triangles] : parts)
     {
         const auto image = images.at(other);
+        if (!back) require_room(task, params.width, params.height, image->rows.channels, image->numbers);
         baked_texture part{{params.width, params.height, image->rows.channels, {}}, {}};
         bake_rows(task, back, triangles, *image, tile, other, params, taken_by(part));
         if (whole.covered.empty())
