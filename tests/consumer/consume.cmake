@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# cmake -DMODE=install|subdirectory|fetch|plain|readme|parts|forgotten|components|pkgconfig|amalgamated -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
+# cmake -DMODE=install|subdirectory|fetch|plain|parts|forgotten|components|pkgconfig|amalgamated -DROOT=... -DBUILD=... [-DCXX=...] -P consume.cmake
 # Builds and runs a user's project: against a taut that was installed without building anything, with taut as a
 # subdirectory or fetched, by a compiler alone; forgotten: without TAUT_IMPLEMENTATION, which the linker tells;
-# readme: the first program of the README, for the host device, of a small surface; parts: the bodies of each header link alone;
+# parts: the bodies of each header link alone, for the host device;
 # components: asks an installed taut for its components; pkgconfig: by a compiler with the flags of pkg-config;
 # amalgamated: with the two files of scripts/amalgamate in an empty folder, whose map is that of the headers.
 function(run)
@@ -27,15 +27,6 @@ if(MODE STREQUAL "plain")
     run(${compile} ${app}/single.cpp -lpthread -ldl -o ${BUILD}/app_single)
     run(${BUILD}/app)
     run(${BUILD}/app_single)
-    return()
-elseif(MODE STREQUAL "readme")
-    file(WRITE ${BUILD}/roof.obj "v 0 0 0\nv 1 0 1\nv 2 0 0\nv 0 1 0\nv 1 1 1\nv 2 1 0\nf 1 2 4\nf 2 5 4\nf 2 3 5\nf 3 6 5\n")
-    run(${compile} -DTAUT_WITH_OPENCL=0 ${ROOT}/examples/unwrap.cpp -lpthread -ldl -o ${BUILD}/unwrap)
-    execute_process(COMMAND ${BUILD}/unwrap roof.obj WORKING_DIRECTORY ${BUILD} OUTPUT_VARIABLE out COMMAND_ERROR_IS_FATAL ANY)
-    file(READ ${BUILD}/flat.obj flat)
-    if(NOT out MATCHES "stop: gradient, .* 0 of 4 flipped" OR NOT flat MATCHES "\nvt ")
-        message(FATAL_ERROR "${out}\n${flat}")
-    endif()
     return()
 elseif(MODE STREQUAL "parts")
     foreach(headers kernel start_map solve untangle volume_file pack charts repair bake "parameterize untangle surface_file")

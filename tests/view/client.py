@@ -206,6 +206,7 @@ def read(b):
         for _ in range(take("I")):
             v, held, *x = take("IB3d")
             m["pins"][v] = (held, x)
+        m["origin"] = take("ddd")
         m["positions"] = many("f")
         return m
     if b[0] == 66:

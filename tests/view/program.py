@@ -27,8 +27,8 @@ def dome(path, n=24):
     return n
 
 
-def bar(path, n=(6, 2, 2)):
-    """A bar of tetrahedra as MEDIT."""
+def bar(path, n=(6, 2, 2), far=0):
+    """A bar of tetrahedra as MEDIT, so far from the origin."""
     index = lambda i, j, k: 1 + i + (n[0] + 1) * (j + (n[1] + 1) * k)
     points = [(i, j, k) for k in range(n[2] + 1) for j in range(n[1] + 1) for i in range(n[0] + 1)]
     cells = []
@@ -46,14 +46,14 @@ def bar(path, n=(6, 2, 2)):
                     cells.append([index(*c) for c in way])
     with open(path, "w") as f:
         f.write(f"MeshVersionFormatted 2\nDimension 3\nVertices\n{len(points)}\n")
-        f.writelines(f"{x} {y} {z} 0\n" for x, y, z in points)
+        f.writelines(f"{x + far} {y + far} {z + far} 0\n" for x, y, z in points)
         f.write(f"Tetrahedra\n{len(cells)}\n")
         f.writelines(f"{a} {b} {c} {d} 0\n" for a, b, c, d in cells)
         f.write("End\n")
 
 
 def at(state, v, d=2):
-    return state["positions"][d * v:d * v + d]
+    return [x + o for x, o in zip(state["positions"][d * v:d * v + d], state["origin"])]
 
 
 def near(a, b, tolerance=1e-6):
@@ -198,6 +198,8 @@ def strangers(path):
         for rude in ({"host": "evil.example"}, {"host": f"evil.example:{p.port}"}, {"host": "127.0.0.1"}, {"origin": "http://evil.example"},
                      {"origin": "null"}, {"origin": f"http://localhost:{p.port}"}, {"target": "/live", "host": "evil.example"}):
             assert p.request(**rude)[0] == 403, rude
+        for second in ("evil.example", f"127.0.0.1:{p.port}"):
+            assert p.request(extra=(f"Host: {second}",))[0] in (400, 403), second
         assert p.request("/../etc/passwd")[0] == 404 and p.request("/live")[0] == 404
         assert p.request(method="POST", extra=("Content-Length: 0",))[0] == 405
         assert p.request(extra=("Content-Length: 100000",), body=b"x" * 1000)[0] == 413
@@ -303,7 +305,8 @@ def opened(path):
 mv {told}.new {told}
 """)
     os.chmod(f"{scripts}/xdg-open", 0o755)
-    with Program(program, path, browser=os.environ | {"PATH": f"{scripts}:{os.environ['PATH']}"}) as p:
+    environment = os.environ | {"PATH": f"{scripts}:{os.environ['PATH']}"}
+    with Program(program, path, browser=environment) as p:
         until(lambda: os.path.exists(told))
         with open(told) as f:
             count, file, mode, folder_mode, files, blocked, *content = f.read().split("\n")
@@ -322,6 +325,32 @@ mv {told}.new {told}
         assert os.path.exists(file) and not isinstance(p.socket(), int)
         p.process.send_signal(signal.SIGINT)
         assert p.process.wait(timeout=300) in (0, 130) and not os.path.exists(os.path.dirname(file))
+    for sent in ((signal.SIGHUP,), (signal.SIGQUIT,), (signal.SIGTERM, signal.SIGTERM)):
+        os.remove(told)
+        with Program(program, path, browser=environment) as p:
+            until(lambda: os.path.exists(told))
+            with open(told) as f:
+                file = f.read().split("\n")[1]
+            for name in sent:
+                p.process.send_signal(name)
+            assert p.process.wait(timeout=300) in (0, 143) and not os.path.exists(os.path.dirname(file)), sent
+
+
+def far_away(path):
+    """What lies far from the origin is shown and pinned as what lies near: floats alone would be 8 apart there."""
+    far = 1e8
+    bar(path, far=far)
+    with Program(program, path) as p:
+        s = p.socket()
+        model = s.message("model")
+        assert sorted(set(model["points"][::3])) == list(range(7))
+        first = s.message("state")
+        end = len(model["points"]) // 3 - 1
+        assert near(at(first, end, 3), (far + 6, far + 2, far + 2))
+        s.send(places(1, [(0, 7, at(first, 0, 3)), (end, 7, (far + 6.5, far + 2, far + 2))]))
+        while not (len((state := s.rest())["pins"]) == 2 and state["held"]):
+            pass
+        assert near(at(state, end, 3), (far + 6.5, far + 2, far + 2)) and near(at(state, 0, 3), (far, far, far))
 
 
 def volume(path):
@@ -493,6 +522,7 @@ if __name__ == "__main__":
     idle(f"{folder}/dome.obj")
     opened(f"{folder}/dome.obj")
     volume(f"{folder}/bar.mesh")
+    far_away(f"{folder}/far.mesh")
     pasting(f"{folder}/dome.obj", n)
     tessellated(f"{folder}/dome.obj", n)
     no_surface(f"{folder}/dome.obj", n)

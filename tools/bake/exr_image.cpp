@@ -32,6 +32,7 @@ std::string exr_message(const char* error)
 {
     std::string text = error ? error : "unknown error";
     if (error) FreeEXRErrorMessage(error);
+    text.erase(text.find_last_not_of(".\n") + 1); // a sentence of its own
     return text;
 }
 
@@ -146,11 +147,6 @@ private:
                                           " pixels; the file is damaged or cut off, get or save it again");
     }
 
-    [[noreturn]] void refuse_channels() const
-    {
-        throw io::io_error(name_, "has no channels R, G, B, nor a single one; save it as one layer of R, G, B");
-    }
-
     void read_header()
     {
         EXRVersion version;
@@ -167,7 +163,6 @@ private:
         if (width < 1 || height < 1 || width > most || height > most)
             throw io::io_error(name_, "is " + std::to_string(width) + " x " + std::to_string(height) +
                                           " pixels; 1 to 65536 are read");
-        if (header_.num_channels < 1) refuse_channels();
         check_bytes(1, static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height));
         require_memory(static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(height),
                        8 * static_cast<std::uint64_t>(header_.num_channels), name_); // floats of planes and of pixels
@@ -185,7 +180,8 @@ private:
         };
         std::vector<int> found = {0};
         if (header_.num_channels != 1) found = {number_of("R"), number_of("G"), number_of("B")};
-        if (std::find(found.begin(), found.end(), -1) != found.end()) refuse_channels();
+        if (std::find(found.begin(), found.end(), -1) != found.end())
+            throw io::io_error(name_, "has no channels R, G, B, nor a single one; save it as one layer of R, G, B");
         if (const int alpha = number_of("A"); header_.num_channels != 1 && alpha >= 0) found.push_back(alpha);
         for (const int c : found)
             if (header_.pixel_types[c] == TINYEXR_PIXELTYPE_UINT)

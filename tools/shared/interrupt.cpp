@@ -9,6 +9,7 @@
 #include <taut/impl/files/file/atomic_file.hpp>
 
 #include "shared/stop_signals.hpp"
+#include "shared/temporary_folder.hpp"
 
 namespace taut::tools
 {
@@ -46,6 +47,7 @@ exit_code code_of(stop_signal signal) noexcept
 {
     tell_if_read("taut: error: " + why + '\n');
     io::impl::remove_temporaries();
+    remove_temporary_folders();
     std::_Exit(to_int(code));
 }
 

@@ -17,23 +17,20 @@ namespace taut::tools
 namespace
 {
 
-sigset_t watched() noexcept
-{
-    sigset_t set;
-    sigemptyset(&set);
-    for (const int signal : {SIGINT, SIGTERM, SIGALRM}) sigaddset(&set, signal);
-    return set;
-}
-
 stop_signal known(int signal) noexcept
 {
     if (signal == SIGALRM) return stop_signal::alarm;
-    return signal == SIGTERM ? stop_signal::terminate : stop_signal::interrupt;
+    return signal == SIGINT ? stop_signal::interrupt : stop_signal::terminate;
 }
 
-[[noreturn]] void watch(void (*take)(stop_signal))
+bool is_ignored(int signal) noexcept
 {
-    const sigset_t set = watched();
+    struct sigaction now = {};
+    return ::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
+
+[[noreturn]] void watch(void (*take)(stop_signal), sigset_t set)
+{
     for (;;)
         if (int signal = 0; ::sigwait(&set, &signal) == 0) take(known(signal));
 }
@@ -42,13 +39,19 @@ stop_signal known(int signal) noexcept
 
 void watch_signals(void (*take)(stop_signal))
 {
-    const sigset_t set = watched();
-    // A shell starts programs in the background with SIGINT ignored; whoever sends it means it.
-    for (const int signal : {SIGINT, SIGTERM, SIGALRM}) std::signal(signal, SIG_DFL);
+    sigset_t set;
+    sigemptyset(&set);
+    for (const int signal : {SIGINT, SIGTERM, SIGALRM, SIGHUP, SIGQUIT})
+    {
+        if (signal == SIGHUP && is_ignored(signal)) continue; // by nohup: the run outlives its terminal
+        // A shell starts programs in the background with SIGINT ignored; whoever sends it means it.
+        std::signal(signal, SIG_DFL);
+        sigaddset(&set, signal);
+    }
     ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
     try
     {
-        std::thread(watch, take).detach();
+        std::thread(watch, take, set).detach();
     }
     catch (const std::system_error&) // no thread to be had: signals do what they do to any program
     {

@@ -10,7 +10,7 @@ namespace taut::tools
 enum class stop_signal
 {
     interrupt, ///< SIGINT: Ctrl-C
-    terminate, ///< SIGTERM; Windows: the window is closed, the user logs off
+    terminate, ///< SIGTERM, SIGQUIT, SIGHUP unless ignored; Windows: the window is closed, the user logs off
     alarm      ///< of set_alarm()
 };
 

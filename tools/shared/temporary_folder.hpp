@@ -21,4 +21,7 @@ private:
     std::filesystem::path path_;
 };
 
+/// Removes all folders that live, and lets no other be made or removed: for the end of the program on another thread.
+void remove_temporary_folders() noexcept;
+
 } // namespace taut::tools

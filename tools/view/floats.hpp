@@ -10,13 +10,14 @@
 namespace taut::view
 {
 
-/// Points and triangles as pages get them.
-inline std::vector<float> as_floats(const std::vector<vec3>& points)
+/// Points and triangles as pages get them: points from an origin nearby, so that floats tell those far from 0 apart.
+template <class Point>
+std::vector<float> as_floats(const std::vector<Point>& points, const Point& origin)
 {
     std::vector<float> list;
-    list.reserve(3 * points.size());
-    for (const vec3& p : points)
-        for (int k = 0; k < 3; ++k) list.push_back(static_cast<float>(p[k]));
+    list.reserve(static_cast<std::size_t>(Point::length()) * points.size());
+    for (const Point& p : points)
+        for (int k = 0; k < Point::length(); ++k) list.push_back(static_cast<float>(p[k] - origin[k]));
     return list;
 }
 

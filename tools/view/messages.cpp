@@ -229,6 +229,7 @@ std::string encode(const state& s, bool may_write)
         out.put(p.vertex).put(p.held);
         for (const double x : p.x) out.put(x);
     }
+    for (const double x : s.origin) out.put(x);
     return out.list(s.positions).take();
 }
 

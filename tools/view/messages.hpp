@@ -107,7 +107,7 @@ struct model
     std::uint8_t dimension; ///< of the positions in states: 2 or 3
     showing what;
     std::string name;                             ///< of the file
-    std::vector<float> points;                    ///< at rest
+    std::vector<float> points;                    ///< at rest, from the first one
     std::vector<std::uint32_t> faces;             ///< three corners each
     std::uint32_t first_of_feature = 0xffffffffu; ///< the faces from there on are the feature's
 };
@@ -126,7 +126,8 @@ struct state
     double seconds = 0;                       ///< from the wishes to this state
     double turn = 0, scale = 1, softness = 0; ///< of the feature that is pasted
     std::vector<place> pins;
-    std::vector<float> positions;
+    double origin[3] = {};        ///< one for all states of a model
+    std::vector<float> positions; ///< from the origin
 };
 
 std::string encode(const model& m);

@@ -61,7 +61,7 @@ public:
         return {3,
                 showing::paste,
                 name_,
-                as_floats(points()),
+                as_floats(points(), target_->points().front()),
                 as_list(cells()),
                 paste_ ? static_cast<std::uint32_t>(paste_->first_feature()) : 0xffffffffu};
     }
@@ -119,7 +119,9 @@ public:
         s.turn = pose_.turn;
         s.scale = pose_.scale;
         s.softness = pose_.softness;
-        s.positions = as_floats(points());
+        const vec3& origin = target_->points().front();
+        for (int k = 0; k < 3; ++k) s.origin[k] = origin[k];
+        s.positions = as_floats(points(), origin);
     }
 
     std::shared_ptr<const memory> remember() const override

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -15,6 +16,7 @@
 #include <taut/session.hpp>
 #include <taut/untangle.hpp>
 
+#include "view/floats.hpp"
 #include "view/subject.hpp"
 
 namespace taut::view
@@ -167,9 +169,9 @@ public:
             s.pins.push_back({v, p.held, {}});
             for (int k = 0; k < D; ++k) s.pins.back().x[k] = p.value[k];
         }
-        s.positions.reserve(D * session_->x().size());
-        for (const auto& p : session_->x())
-            for (int k = 0; k < D; ++k) s.positions.push_back(static_cast<float>(p[k]));
+        if (!origin_) origin_ = session_->x().front();
+        for (int k = 0; k < D; ++k) s.origin[k] = (*origin_)[k];
+        s.positions = as_floats(session_->x(), *origin_);
     }
 
     std::shared_ptr<const memory> remember() const override
@@ -287,6 +289,7 @@ private:
     const mesh<Element>& mesh_;
     std::function<bool()> goes_on_; ///< asked by the session
     std::unique_ptr<session<Element>> session_;
+    mutable std::optional<vec<D>> origin_; ///< of what pages get
     taut::constraints<Element> asked_; ///< by the person at the page
     std::vector<char> outside_;        ///< of the focus, one per vertex; empty: there is none
     session_report report_;

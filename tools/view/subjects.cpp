@@ -100,7 +100,7 @@ public:
 
     view::model model() const override
     {
-        return {2, showing::map, name_, as_floats(surface().points()), as_list(faces_)};
+        return {2, showing::map, name_, as_floats(surface().points(), surface().points().front()), as_list(faces_)};
     }
 
     void start_afresh() override
@@ -200,7 +200,7 @@ public:
 
     view::model model() const override
     {
-        return {static_cast<std::uint8_t>(Element::dimension), showing::shape, name_, as_floats(opened::file.points),
+        return {static_cast<std::uint8_t>(Element::dimension), showing::shape, name_, as_floats(opened::file.points, opened::file.points.front()),
                 as_list(faces_)};
     }
 
@@ -272,7 +272,7 @@ public:
 
     view::model model() const override
     {
-        return {3, showing::shape, name_, as_floats(shell.surface().points()), as_list(faces_)};
+        return {3, showing::shape, name_, as_floats(shell.surface().points(), shell.surface().points().front()), as_list(faces_)};
     }
 
     void start_afresh() override

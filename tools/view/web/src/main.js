@@ -216,7 +216,7 @@ class Page {
     const marks = (this.marks = []);
     for (const v of this.line) marks.push({ vertex: v, colour: accent.line });
     for (const [v, p] of this.state.pins) {
-      const held = p.x.every((x, k) => ((p.held >> k) & 1) === 0 || Math.fround(x) === this.state.positions[this.model.dimension * v + k]);
+      const held = p.x.every((x, k) => ((p.held >> k) & 1) === 0 || Math.fround(x - this.state.origin[k]) === this.state.positions[this.model.dimension * v + k]);
       marks.push({ vertex: v, colour: v === this.current ? accent.current : held ? accent.pin : accent.ahead });
     }
     this.right.setMarks(marks);
@@ -229,9 +229,12 @@ class Page {
     this.mark();
   }
 
+  /** A position of a pane as the program has it. */
+  #inSpace(x) { return x.map((value, k) => value + this.state.origin[k]); }
+
   position(v) {
     const d = this.model.dimension;
-    return Array.from(this.state.positions.subarray(d * v, d * v + d));
+    return this.#inSpace(Array.from(this.state.positions.subarray(d * v, d * v + d)));
   }
 
   /** Pins a vertex, all coordinates or those that it is pinned in. */
@@ -354,7 +357,7 @@ class Page {
       if (this.#drag?.pane !== pane) return;
       if (this.tool === 'region') return this.#grow(pixel(e));
       if (this.tool === 'place') return;
-      this.#drag.x = pane.toModel(pixel(e), this.#drag.vertex);
+      this.#drag.x = this.#inSpace(pane.toModel(pixel(e), this.#drag.vertex));
       this.#drag.fresh = true;
       this.#schedule();
     });
@@ -365,7 +368,7 @@ class Page {
         const v = pane.vertexAt(pixel(e), reach);
         if (v >= 0) this.place({ onto: v });
       } else if (this.tool === 'drag') { // a click pins the vertex where it is
-        this.#drag.x = this.#drag.x ? pane.toModel(pixel(e), this.#drag.vertex) : this.position(this.#drag.vertex);
+        this.#drag.x = this.#drag.x ? this.#inSpace(pane.toModel(pixel(e), this.#drag.vertex)) : this.position(this.#drag.vertex);
         this.#drag.fresh = true;
         this.#sendDrag();
       }

@@ -66,6 +66,7 @@ const readers = {
     s.pose = { turn: in_.f64(), scale: in_.f64(), softness: in_.f64() };
     s.pins = new Map();
     for (let n = in_.u32(); n > 0; --n) s.pins.set(in_.u32(), { held: in_.u8(), x: [in_.f64(), in_.f64(), in_.f64()] });
+    s.origin = [in_.f64(), in_.f64(), in_.f64()];
     s.positions = in_.floats();
     return s;
   },
