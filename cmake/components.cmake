@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT
-# The components of find_package(taut COMPONENTS ...). headers and taut are there in any case. dist is that of taut/dist.hpp;
+# The components of find_package(taut COMPONENTS ...). headers, taut, core, files and charts are there in any case. dist is that of taut/dist.hpp;
 # gltf and eigen are those of taut/gltf.hpp and taut/eigen.hpp: taut::gltf and taut::eigen are taut::headers with the library that each needs.
-set(taut_headers_FOUND TRUE)
-set(taut_taut_FOUND TRUE)
+foreach(name headers taut ${taut_houses})
+    set(taut_${name}_FOUND TRUE)
+endforeach()
 function(taut_component name package target)
     if(NOT TARGET ${target})
         find_package(${package} QUIET)

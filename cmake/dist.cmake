@@ -21,9 +21,9 @@ if(TAUT_MPI)
 endif()
 
 if(taut_dist_found)
-    add_library(taut_dist STATIC EXCLUDE_FROM_ALL ${taut_source_dir}/dist.cpp ${taut_source_dir}/dist_plane.cpp
-        ${taut_source_dir}/dist_file.cpp)
+    file(GLOB taut_units ${taut_source_dir}/dist/*.cpp)
+    add_library(taut_dist STATIC EXCLUDE_FROM_ALL ${taut_units})
     add_library(taut::dist ALIAS taut_dist)
     target_include_directories(taut_dist SYSTEM PUBLIC ${TAUT_PETSC_INCLUDE} ${TAUT_PETSC_CONFIGURED})
-    target_link_libraries(taut_dist PUBLIC taut::taut MPI::MPI_CXX ${TAUT_PETSC_LIBRARY})
+    target_link_libraries(taut_dist PUBLIC taut::files MPI::MPI_CXX ${TAUT_PETSC_LIBRARY})
 endif()

@@ -7,15 +7,6 @@
 
 using namespace taut;
 
-// [stored]
-/// Coordinates as the file will hold them: floats, of v that runs downwards.
-vec2 in_gltf(vec2 x)
-{
-    const vec2 y = io::gltf_model::rounded({x.x, -x.y});
-    return {y.x, -y.y};
-}
-// [stored]
-
 io::gltf_model read(const std::filesystem::path& path)
 {
     if (io::is_gltf(path)) return io::read_gltf(path);
@@ -31,17 +22,13 @@ try
     const auto model = read(argv[1]); // io::read_gltf(), or gltf_model() of other surfaces
     // [atlas]
     const mesh<triangle> surface(model.points, model.triangles);
-    const auto atlas = make_atlas(q, surface, {.origin = {0, -1}, .stored = in_gltf}); // certified as it is stored
+    // Certified as it is stored.
+    const auto atlas = make_atlas(q, surface, {.origin = {0, -1}, .stored = io::gltf_model::stored<>});
     std::cout << atlas.report << '\n';
 
-    std::vector<std::array<vec2, 3>> uv(model.triangles.size());
-    const auto corners = atlas.corners();
-    for (std::size_t t = 0; t < uv.size(); ++t)
-        for (std::size_t k = 0; k < 3; ++k)
-        {
-            const vec2 x = atlas.uv[static_cast<std::size_t>(corners[t][k])];
-            uv[t][k] = {x.x, -x.y};
-        }
+    auto uv = atlas.corner_uv();
+    for (auto& triangle : uv)
+        for (vec2& x : triangle) x.y = -x.y; // v downwards
     model.write(argv[2], uv);
     // [atlas]
     if (!atlas) std::cerr << atlas.report.reason << '\n';

@@ -238,6 +238,18 @@ public:
     {
     }
 
+    /// Says what is missing in one that is no energy.
+    template <class E>
+        requires(!std::same_as<std::remove_cvref_t<E>, any_energy> && !energy::impl::energy_of_some_dimension<E> &&
+                 (std::invocable<const E&, const element<double, 2>&> ||
+                  std::invocable<const E&, const element<double, 3>&>))
+    any_energy(const E&, std::vector<double> = {})
+    {
+        static_assert(energy::impl::energy_of_some_dimension<E>,
+                      "an energy says where it is infinite: give it `static constexpr bool barrier`, true if it is "
+                      "where det S <= 0; and it returns a number");
+    }
+
     /// Returns the energy with other parameters.
     any_energy with_parameters(std::vector<double> parameters) const
     {
@@ -322,6 +334,13 @@ private:
     struct model final : interface
     {
         explicit model(E energy) : e(std::move(energy)) {}
+
+        template <int D>
+        static constexpr bool is_traceable = !std::invocable<const E&, const element<double, D>&> ||
+                                             std::invocable<const E&, const element<sym<double>, D>&>;
+        static_assert(is_traceable<2> && is_traceable<3>,
+                      "an energy is traced with scalars other than double: make its operator() a template of the scalar, "
+                      "and call functions of mathematics without std::");
 
         template <class T, int D>
         T call(const element<T, D>& x) const

@@ -39,7 +39,7 @@ enum class chart_preference
 struct atlas_params
 {
     /// How far charts go, and seams that are given. 4.1 is a stretch (L2) of 1.017; for packing, 4.2 and 4.045, the
-    /// bounds of segment_params, are good.
+    /// bounds of segment_params, are good. Assign single fields: an initialiser of its own brings these bounds.
     segment_params charts = {.max_distortion = std::numeric_limits<double>::infinity(), .mean_distortion = 4.1};
 
     chart_preference prefer = chart_preference::seams;
@@ -123,7 +123,7 @@ struct atlas_report
     std::size_t polygons = 0;   ///< polygons of more than three corners that are convex in space
     std::size_t concave = 0;    ///< those of them that are not convex in the atlas; exact
     double distortion = 0;      ///< area mean of the isometric energy at one common scale; 4: none
-    double worst = 0;           ///< the largest of a chart
+    double worst = 0;           ///< the largest of a chart, each at its own best scale: may be below `distortion`
     double stretch_l2 = 1;      ///< of Sander et al. 2001, at one common scale that keeps the area; 1: none
     double stretch_linf = 1;    ///< the same, the largest of a triangle
     double area_distortion = 1; ///< area mean of max(a, 1 / a), a the ratio of areas, both of one total; 1: none
@@ -167,6 +167,18 @@ struct atlas
         std::vector<std::array<idx, 3>> result(charts.surface.cells().size());
         for (std::size_t i = 0; i < result.size(); ++i)
             result[static_cast<std::size_t>(charts.cell_origins[i])] = charts.surface.cells()[i];
+        return result;
+    }
+
+    /// The same as coordinates: those of the corners of each triangle of the surface.
+    std::vector<std::array<vec2, 3>> corner_uv() const
+    {
+        std::vector<std::array<vec2, 3>> result;
+        for (const auto& t : corners())
+        {
+            result.emplace_back();
+            for (std::size_t k = 0; k < 3; ++k) result.back()[k] = uv[static_cast<std::size_t>(t[k])];
+        }
         return result;
     }
 

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <map>
 #include <span>
@@ -21,7 +22,6 @@
 #include <taut/errors.hpp>
 #include <taut/impl/core/constrain/arc_length.hpp>
 #include <taut/impl/core/constrain/long_rotation.hpp>
-#include <taut/impl/core/constrain/pin.hpp>
 #include <taut/impl/core/core/fixed_marks.hpp>
 #include <taut/impl/core/mesh/arrays.hpp>
 #include <taut/impl/core/mesh/boundary.hpp>
@@ -32,6 +32,14 @@
 /// Pins, springs, boundaries and slides.
 namespace taut
 {
+
+/// Hard pin: coordinates of a vertex that are fixed exactly: bit k of `held` says that coordinate k is value[k].
+template <int D>
+struct hard_pin
+{
+    std::uint8_t held = 0;
+    vec<D> value{0.0};
+};
 
 /// Placement of a map with a free boundary and no constraints, which is unique up to rigid motions only.
 enum class placement
@@ -185,6 +193,7 @@ public:
     {
         return move(vertices, [](const point& p) { return p; });
     }
+    constraints& fix(std::initializer_list<idx> vertices) { return fix(std::span(vertices.begin(), vertices.size())); }
 
     /// Pins vertices to transform(p), p their positions in the map x. A rigid_motion is followed for its whole angle,
     /// any number of turns.
@@ -237,7 +246,7 @@ public:
     void rotations(std::vector<impl::long_rotation<D>> left) { rotations_ = std::move(left); }
 
     /// Pins, ascending by vertex.
-    const std::map<idx, impl::hard_pin<D>>& pins() const { return pins_; }
+    const std::map<idx, hard_pin<D>>& pins() const { return pins_; }
 
     /// Springs, ascending by vertex.
     std::vector<taut::spring<D>> springs() const;
@@ -311,6 +320,9 @@ private:
     constraints& hold_images(std::span<const idx> vertices, const From& from, const Transform& transform,
                              bool replace = false)
     {
+        if constexpr (std::same_as<Transform, rigid_motion<D>>)
+            if (!(std::abs(glm::length(transform.axis) - 1) < 1e-6))
+                throw parameter_error("axis", "must have length 1; normalise it, or use rigid_motion::about()");
         hold(
             vertices, all, [&](std::size_t i) { return transform(from(i)); }, replace);
         if constexpr (std::same_as<Transform, rigid_motion<D>>)
@@ -330,7 +342,7 @@ private:
     }
 
     const mesh<Element>* mesh_ = nullptr;
-    std::map<idx, impl::hard_pin<D>> pins_;
+    std::map<idx, hard_pin<D>> pins_;
     std::map<idx, taut::spring<D>> springs_;
     std::vector<impl::long_rotation<D>> rotations_;
 };

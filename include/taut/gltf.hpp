@@ -61,6 +61,14 @@ struct gltf_model
     /// the unrounded ones.
     static vec2 rounded(vec2 uv, numbers as = numbers::floats);
 
+    /// The same with v upwards, for atlas_params::stored beside the origin {0, -1}: the numbers of (u, -v).
+    template <numbers As = numbers::floats>
+    static vec2 stored(vec2 uv)
+    {
+        const vec2 x = rounded({uv.x, -uv.y}, As);
+        return {x.x, -x.y};
+    }
+
     /// Writes the model with new texture coordinates; its files appear together or not at all.
     /// corner_uv: one per corner of triangles, v downwards. Throws io_error, parameter_error.
     void write(const std::filesystem::path& path, std::span<const std::array<vec2, 3>> corner_uv, int texcoord_set = 0,

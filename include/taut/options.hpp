@@ -49,7 +49,7 @@ using observer = std::function<bool(const progress&)>;
 /// with none, which its outcome says.
 struct run_limits
 {
-    /// Wall-clock seconds of the whole call. Range >= 0.
+    /// Wall-clock seconds of the whole call, as 5s or 50ms (std::chrono_literals). Range >= 0.
     std::chrono::duration<double> time_limit = std::chrono::duration<double>(std::numeric_limits<double>::infinity());
 
     /// Asked at every iterate and trial step, between phases and between the steps of long ones: false ends the run.

@@ -231,16 +231,19 @@ public:
     template <class Handler>
     auto read(Handler& h) const
     {
+        require_recorded();
         return h.reads(*this);
     }
     template <class Handler>
     auto write(Handler& h)
     {
+        require_recorded();
         return h.writes(*this);
     }
     template <class Handler>
     auto read_write(Handler& h)
     {
+        require_recorded();
         return h.updates(*this);
     }
 
@@ -252,6 +255,11 @@ public:
 private:
     template <class U>
     friend const impl::device_memory& impl::memory_of(const buffer<U>& b) noexcept;
+
+    static constexpr void require_recorded()
+    {
+        static_assert(impl::traceable<T>, "recorded kernels take buffers of float, double and std::int32_t");
+    }
 
     impl::device_memory memory_;
 };

@@ -54,6 +54,7 @@ public:
     {
         std::size_t first = 0;
         std::size_t count = 0;
+        std::size_t round = 0; ///< the call of fetch() that brings them, from 1; 0: none
     };
 
     /// `count` runs of `length` elements each, from `start`, `stride` apart.
@@ -93,6 +94,7 @@ public:
     /// Waits once and folds all that was enqueued in this round.
     void fetch();
 
+    /// Numbers of the last round that was fetched. Throws parameter_error for results of others.
     double value(result r, std::size_t k = 0) const { return values(r)[k]; }
     std::span<const double> values(result r) const;
 

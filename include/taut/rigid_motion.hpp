@@ -11,13 +11,20 @@
 namespace taut
 {
 
-/// Rigid motion of the plane or of space: a rotation by an angle about an axis through `from`, which is moved to `to`.
+/// Rigid motion of the plane or of space: a rotation by an angle about an axis through `from`, which is moved to `to`:
+/// {.to = t} translates by t, about(c, a) rotates.
 template <int D>
 struct rigid_motion
 {
     vec<D> from{0.0}, to{0.0};
     vec3 axis{0, 0, 1}; ///< axis of length 1; in the plane the normal
     double angle = 0;   ///< radians; of a fit -pi to pi in the plane, 0 to pi in space
+
+    /// Rotation about a point that stays where it is. axis: of any length but 0.
+    static rigid_motion about(const vec<D>& centre, double radians, const vec3& axis = {0, 0, 1})
+    {
+        return {centre, centre, glm::normalize(axis), radians};
+    }
 
     /// Image of a point under the fraction t of the motion, 0 to 1.
     vec<D> operator()(const vec<D>& p, double t = 1) const

@@ -105,7 +105,8 @@ struct session_seconds
 /// Report of one call of session::solve: its steps, and the measures and certificate of the map.
 struct session_report
 {
-    /// `valid`: there is a certified map. Otherwise there are no coordinates, and reason and ids are as in map_report.
+    /// `valid`: there is a certified map, though pins may be away from their places: see pins_held. Otherwise reason
+    /// and ids are as in map_report, and there are no coordinates but those of deform(), with the defects that ids name.
     taut::outcome outcome = outcome::no_valid_start;
     std::string reason;             ///< why there is no valid map, or why the pins cannot be reached; else empty
     std::vector<idx> ids;           ///< elements or vertices that the reason concerns
@@ -133,7 +134,7 @@ struct session_result
     std::vector<vec<Element::dimension>> x; ///< one per vertex, in the user's order and lengths
     session_report report;
 
-    /// True if there is a map: it is certified.
+    /// True if there is a map: it is certified. Pins may still be away from their places: report.pins_held.
     explicit operator bool() const { return report.outcome == outcome::valid; }
     const std::string& reason() const { return report.reason; }
 };

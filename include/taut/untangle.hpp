@@ -44,6 +44,10 @@ constexpr std::string_view to_string(outcome what) noexcept
 {
     return taut::impl::name_in<outcome::gave_up>({"valid", "no valid start", "stopped", "infeasible", "gave up"}, what);
 }
+inline std::ostream& operator<<(std::ostream& out, outcome what)
+{
+    return out << to_string(what);
+}
 
 /// Report of one stage of an untangling. Energies are the regularised ones of its first and last step.
 struct untangle_stage_report : stage_report

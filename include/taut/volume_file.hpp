@@ -229,6 +229,13 @@ volume_file read_volume_file(const std::filesystem::path& path, volume_format fo
 /// Reads the tetrahedra of a volume mesh. Throws mesh_error as volume_file::tetrahedra().
 mesh<tetrahedron> read_volume(const std::filesystem::path& path, volume_format format = volume_format::automatic);
 
+/// Writes a mesh that was made in memory, tetrahedra or triangles of the plane (all z equal), as text: MEDIT (.mesh),
+/// gmsh (.msh), VTK (.vtk) or VTU (.vtu). A mesh that was read keeps its groups and bytes by volume_file::write.
+/// x: one position per vertex; none: those at rest. Throws io_error, also for other names; parameter_error.
+template <class Element>
+void write_volume(const std::filesystem::path& to, const mesh<Element>& m,
+                  std::span<const vec<Element::dimension>> x = {});
+
 } // namespace taut::io
 
 namespace taut

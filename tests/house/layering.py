@@ -154,7 +154,7 @@ for room, d in floors.items():
         failures.append(f"{room}: {d} floors of includes, at most {HIGH.get(room, FLOORS)}")
 
 # One file of a program has the bodies of all units.
-units = {x for p in (root / "src").glob("*.cpp") if not p.name.startswith("dist") for x in re.findall(r"<(taut/impl/[^>]+\.ipp)>", p.read_text())}
+units = {x for p in (root / "src").rglob("*.cpp") if p.parent.name != "dist" for x in re.findall(r"<(taut/impl/[^>]+\.ipp)>", p.read_text())}
 gathered = set(re.findall(r"<(taut/impl/[^>]+\.ipp)>", (include / "impl/bodies.inl").read_text()))
 failures += [f"src: {x} is not in impl/bodies.inl" for x in sorted(units - gathered)]
 failures += [f"impl/bodies.inl: {x} is in no unit of src" for x in sorted(gathered - units)]

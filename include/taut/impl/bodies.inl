@@ -181,6 +181,7 @@
 
 #ifdef TAUT_PART_VOLUME_FILE
 #include <taut/impl/files/volume/make_untangle_problem.ipp>
+#include <taut/impl/files/volume/new_volume.ipp>
 #include <taut/impl/files/volume/read_volume.ipp>
 #include <taut/impl/files/volume/subdivided.ipp>
 #include <taut/impl/files/volume/volume_file.ipp>

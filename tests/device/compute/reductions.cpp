@@ -219,6 +219,24 @@ TEST_CASE_TEMPLATE("reductions: repeat bit for bit, alone or among others", T, f
     }
 }
 
+TEST_CASE("reductions: a number is there after its fetch(), and until the next")
+{
+    taut::queue q(taut::test::shared_context());
+    buffer<double> x(q, 10);
+    x.fill(1);
+    reductions r(q);
+    const auto before = r.sum(x);
+    CHECK_THROWS_WITH_AS(r.value(before), doctest::Contains("call fetch() first"), taut::parameter_error);
+    r.fetch();
+    CHECK(r.value(before) == 10);
+    const auto after = r.sum(x);
+    CHECK(r.value(before) == 10);
+    CHECK_THROWS_AS(r.value(after), taut::parameter_error);
+    r.fetch();
+    CHECK(r.value(after) == 10);
+    CHECK_THROWS_WITH_AS(r.value(before), doctest::Contains("last fetch()"), taut::parameter_error);
+}
+
 TEST_CASE("reductions: many share one wait, and a new round begins after it")
 {
     taut::queue q(taut::test::shared_context());

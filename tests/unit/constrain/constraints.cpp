@@ -167,11 +167,13 @@ TEST_CASE("constraints: sets are fixed where they are and moved by a transform")
 
     const auto volume = test::cube(2);
     const auto lifted = taut::constraints(volume)
-                            .fix(std::vector<taut::idx>{0})
+                            .fix({0})
                             .move(std::vector<taut::idx>{26}, [](const vec3& p) { return p + vec3(0, 0, 0.2); });
     CHECK(lifted.pins().at(26).value == vec3(1, 1, 1.2));
     CHECK(lifted.held(0) == 7);
     CHECK(taut::constraints(volume).pin(3, 2, 0.5).held(3) == 4);
+    CHECK_THROWS_WITH_AS(taut::constraints(volume).move(ids, taut::rigid_motion<3>{.axis = {0, 0, 2}}),
+                         doctest::Contains("length 1"), taut::parameter_error);
 }
 
 TEST_CASE("constraints: the boundary goes around a polygon by arc length")

@@ -49,7 +49,9 @@ TEST_CASE("private folders: no link, none that others write in, and none that ot
     permit(own, 0755);
     permit(folder / "", 0777);
     CHECK(fault_of_folder(own).find("rename") != std::string::npos);
+    CHECK_FALSE(taut::impl::fault_of_made_folder(own / "a/b/c").empty());
     permit(folder / "", 01777); // as /tmp
     CHECK(fault_of_folder(own).empty());
+    CHECK(taut::impl::fault_of_made_folder(own / "a/b/c").empty());
 }
 #endif

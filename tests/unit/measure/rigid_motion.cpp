@@ -56,6 +56,14 @@ TEST_CASE_TEMPLATE_DEFINE("rigid motion: a turn and a shift are found again, and
 }
 TEST_CASE_TEMPLATE_INVOKE(of_space, vec2, vec3);
 
+TEST_CASE("rigid motion: about a point, which stays")
+{
+    const auto turn = rigid_motion<3>::about({1, 2, 3}, std::numbers::pi / 2, {0, 0, 7});
+    CHECK(glm::length(turn({1, 2, 3}) - vec3(1, 2, 3)) < 1e-15);
+    CHECK(glm::length(turn({2, 2, 4}) - vec3(1, 3, 4)) < 1e-15);
+    CHECK(glm::length(rigid_motion<2>::about({1, 0}, std::numbers::pi)({3, 0}) - vec2(-1, 0)) < 1e-15);
+}
+
 TEST_CASE("rigid motion: two points and points on a line turn no more than they have to")
 {
     for (unsigned seed = 1; seed < 20; ++seed)

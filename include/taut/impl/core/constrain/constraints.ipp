@@ -16,7 +16,6 @@
 #include <taut/constraints.hpp>
 #include <taut/errors.hpp>
 #include <taut/impl/core/constrain/constraint_error.hpp>
-#include <taut/impl/core/constrain/pin.hpp>
 #include <taut/impl/core/core/fixed_marks.hpp>
 
 namespace taut
@@ -150,7 +149,7 @@ void constraints<Element>::require_vertices(std::span<const idx> vertices) const
     for (const idx v : vertices)
         if (v < 0 || static_cast<std::size_t>(v) >= count()) bad.push_back(v);
     impl::refuse_vertices(constraint_error::out_of_range, std::move(bad),
-                          "that the mesh does not have; it has " + std::to_string(count()) + ", counted from 0");
+                          "that the mesh does not have; its last one is " + std::to_string(static_cast<std::ptrdiff_t>(count()) - 1));
 }
 
 template <class Element>
@@ -176,15 +175,15 @@ constraints<Element>& constraints<Element>::hold(std::span<const idx> vertices, 
 {
     require_vertices(vertices);
     std::vector<idx> not_finite, contradictory, duplicate, idle;
-    std::map<idx, impl::hard_pin<D>> added;
+    std::map<idx, hard_pin<D>> added;
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
         const idx v = vertices[i];
         const point x = where(i);
         if (!finite(x, coordinates)) not_finite.push_back(v);
         const auto earlier = pins_.find(v);
-        const auto [at, is_new] = added.try_emplace(v, earlier == pins_.end() ? impl::hard_pin<D>{} : earlier->second);
-        impl::hard_pin<D>& p = at->second;
+        const auto [at, is_new] = added.try_emplace(v, earlier == pins_.end() ? hard_pin<D>{} : earlier->second);
+        hard_pin<D>& p = at->second;
         bool again = false, differs = false;
         for (int k = 0; k < D; ++k)
         {

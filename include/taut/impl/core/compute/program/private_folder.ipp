@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cerrno>
+#include <cstdlib>
 #include <system_error>
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -32,6 +33,27 @@ inline int make_folder(const std::filesystem::path& folder)
     return ::mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST ? 0 : errno;
 }
 
+/// Who may rename a folder above puts another one in its place. The user's home is where the user chose to be, and who
+/// owns "/" may do anything.
+inline std::string fault_above(const std::filesystem::path& folder)
+{
+    const char* const home = std::getenv("HOME");
+    struct stat state = {};
+    const uid_t system = ::stat("/", &state) == 0 ? state.st_uid : 0;
+    for (auto below = folder; below.has_relative_path() && (home == nullptr || below != home);
+         below = below.parent_path())
+    {
+        const auto above = below.parent_path();
+        if (::stat(above.c_str(), &state) != 0) return std::generic_category().message(errno);
+        if (state.st_uid != ::geteuid() && state.st_uid != 0 && state.st_uid != system)
+            return "lies in " + above.string() + ", a folder of another user, number " + std::to_string(state.st_uid);
+        if ((state.st_mode & 0002) != 0 && (state.st_mode & S_ISVTX) == 0)
+            return "lies in " + above.string() +
+                   ", in which everybody may rename it (`chmod o-w` or `chmod +t` ends that)";
+    }
+    return {};
+}
+
 std::string fault_of_folder(const std::filesystem::path& folder, unsigned closed_to)
 {
     const auto plain = without_slash(folder);
@@ -44,13 +66,8 @@ std::string fault_of_folder(const std::filesystem::path& folder, unsigned closed
     if ((state.st_mode & closed_to) != 0)
         return "others may write in it (`chmod go-w` ends that, if all that lies there is yours)";
     std::error_code failure;
-    const auto above = std::filesystem::weakly_canonical(std::filesystem::absolute(plain, failure), failure);
-    if (::stat(above.parent_path().c_str(), &state) != 0) return std::generic_category().message(errno);
-    if (state.st_uid != ::geteuid() && state.st_uid != 0)
-        return "lies in a folder of another user, number " + std::to_string(state.st_uid);
-    if ((state.st_mode & 0002) != 0 && (state.st_mode & S_ISVTX) == 0)
-        return "lies in a folder in which everybody may rename it (`chmod o-w` or `chmod +t` ends that)";
-    return {};
+    const auto full = std::filesystem::weakly_canonical(std::filesystem::absolute(plain, failure), failure);
+    return fault_above(full);
 }
 
 std::string fault_of_made_folder(const std::filesystem::path& folder)

@@ -9,6 +9,7 @@
 #include <taut/impl/files/surface/read_surface.ipp>
 #include <taut/impl/files/surface/write_obj.ipp>
 #include <taut/impl/files/volume/make_untangle_problem.ipp>
+#include <taut/impl/files/volume/new_volume.ipp>
 #include <taut/impl/files/volume/read_volume.ipp>
 #include <taut/impl/files/volume/subdivided.ipp>
 #include <taut/impl/files/volume/volume_file.ipp>
