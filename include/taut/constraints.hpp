@@ -41,6 +41,15 @@ struct hard_pin
     vec<D> value{0.0};
 };
 
+/// Spring (soft constraint): weight * |x - target|^2 is added to the objective.
+template <int D>
+struct spring
+{
+    idx vertex;
+    vec<D> target;
+    double weight;
+};
+
 /// Placement of a map with a free boundary and no constraints, which is unique up to rigid motions only.
 enum class placement
 {
