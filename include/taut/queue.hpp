@@ -20,6 +20,7 @@
 
 #include <taut/device.hpp>
 #include <taut/impl/core/compute/device_memory.hpp>
+#include <taut/impl/core/symbolic/scalar_type.hpp>
 #include <taut/options.hpp>
 #include <taut/types.hpp>
 

@@ -194,24 +194,23 @@ class Atlas:
         _tell_unused(charts, packing)
         options = {**charts._options(), **packing._options(), "single": True, "progress": verbose or None}
         density = packing.texels_per_unit
-        pages = self._pages(density, packing.resolution, options["padding"])
         if packing.max_chart_size > 0:
-            whole = self._within(packing.max_chart_size, density, self._call(charts, options), {**options, **pages})
+            whole = self._within(packing, self._call(charts, options), options)
         else:
+            area = sum(float(_areas(i.points, i.faces).sum()) for i in self._inputs)
+            pages = self._pages(density, area, packing.resolution, options["padding"]) if density > 0 else {}
             whole = self._call(charts, {**options, **pages})
         self._resolution = whole.report["resolution"]
         self._whole = whole = self._on_pages(whole)
         self._made = _split(whole, [len(i.points) for i in self._inputs], [len(i.faces) for i in self._inputs])
         self._images = [self._draw(whole, k) for k in range(self.atlas_count)] if packing.create_image else []
 
-    def _pages(self, density: float, resolution: int, padding: int) -> dict[str, Any]:
-        """Pages for a density in texels, if there is one."""
-        if density <= 0:
-            return {}
-        side = density * float(np.sqrt(sum(float(_areas(i.points, i.faces).sum()) for i in self._inputs)))
+    @staticmethod
+    def _pages(density: float, area: float, resolution: int, padding: int) -> dict[str, Any]:
+        """Pages for charts of so much area at a density in texels."""
         if resolution > 0:
             return {"texels_per_unit": density, "tiles": 1000}
-        start = int(np.clip(1.25 * side + 4 * padding, 64, 65536))
+        start = int(np.clip(1.25 * density * float(np.sqrt(area)) + 4 * padding, 64, 65536))
         return {"texels_per_unit": density, "resolution": start, "max_resolution": 65536}
 
     def _call(self, charts: ChartOptions, options: dict[str, Any]) -> _Made:
@@ -247,17 +246,21 @@ class Atlas:
     def _bodies(self) -> Any:
         return np.repeat(np.arange(len(self._inputs)), [len(i.points) for i in self._inputs])
 
-    def _within(self, most: int, density: float, whole: _Made, options: dict[str, Any]) -> _Made:
+    def _within(self, packing: PackOptions, whole: _Made, options: dict[str, Any]) -> _Made:
         """The charts of an atlas, of at most so many texels along a side, packed at a density, or at that which it has."""
         known = whole.chart >= 0
         low, high = np.full((whole.charts, 2), np.inf), np.full((whole.charts, 2), -np.inf)
         np.minimum.at(low, whole.chart[known], whole.corner_uv[known].min(1))
         np.maximum.at(high, whole.chart[known], whole.corner_uv[known].max(1))
         scale = self._scale(whole)
-        density = density or whole.report["resolution"] * scale
-        factor = np.minimum(1, most / np.maximum((high - low).max(1) / scale * density, 1e-300))
+        density = packing.texels_per_unit or whole.report["resolution"] * scale
+        factor = np.minimum(1, packing.max_chart_size / np.maximum((high - low).max(1) / scale * density, 1e-300))
+        factors = np.append(factor, 1.0)[whole.chart]
+        a, b, c = np.moveaxis(whole.corner_uv / scale * factors[:, None, None], 1, 0)
+        area = 0.5 * float(np.abs((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])[known].sum())
         return self._pack(whole.corner_uv, whole.chart, {
-            **options, "rotate": False, "densities": np.append(factor, 1.0)[whole.chart], "texels_per_unit": density})
+            **options, **self._pages(density, area, packing.resolution, options["padding"]),
+            "rotate": False, "densities": factors})
 
     @staticmethod
     def _on_pages(whole: _Made) -> _Made:
