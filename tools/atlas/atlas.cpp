@@ -138,7 +138,7 @@ private:
                 (options_.keep_charts() || options_.keep_seams || !options_.pinned.empty()))
                 throw unsuitable_input(s.texcoord_fault +
                                        "; correct it, or leave out --charts keep, --keep-seams and --keep-charts");
-            if (options_.inputs.size() > 1) require_valid(s.surface(), options_.inputs[i]);
+            if (options_.inputs.size() > 1 || s.is_placed()) require_valid(s.surface(), options_.inputs[i]);
         }
         joined_.emplace(join(sources_));
     }
@@ -251,8 +251,8 @@ private:
         const corner_maps maps(*joined_, *atlas_);
         std::vector<io::file_to_write> files;
         if (options_.outputs.size() < sources_.size())
-            files.push_back({options_.outputs[0],
-                             [&](io::atomic_file& file) { write_joined(file, options_.inputs, *joined_, maps); }});
+            files.push_back({options_.outputs[0], [&](io::atomic_file& file)
+                             { write_joined(file, options_.inputs, sources_, *joined_, maps); }});
         else
             for (std::size_t i = 0; i < sources_.size(); ++i)
             {

@@ -9,11 +9,11 @@
 
 #include <taut/impl/core/core/disjoint_sets.hpp>
 #include <taut/impl/core/mesh/describe.hpp>
-#include <taut/impl/files/gltf/gltf.hpp>
 #include <taut/impl/files/surface/obj_statements.hpp>
 #include <taut/impl/files/surface/surface_file_bodies.hpp>
 #include <taut/surface_file.hpp>
 
+#include "atlas/placed_points.hpp"
 #include "shared/failure.hpp"
 #include "shared/repair_report.hpp"
 #include "shared/reversed_fans.hpp"
@@ -209,6 +209,9 @@ public:
             near_edges = describe_near_edges(model_.points, model_.triangles, bodies);
             take(mesh<triangle>(model_.points, model_.triangles));
         }
+        if (!options.in_scene) return;
+        auto points = placed_points(surface(), meshes(), io::impl::drawn_meshes(model_.source), notes);
+        if (points != surface().points()) place(std::move(points));
     }
 
     std::vector<idx> parts() const override
@@ -226,6 +229,14 @@ public:
     }
 
 private:
+    /// The mesh that each triangle of the surface is of.
+    std::vector<idx> meshes() const
+    {
+        std::vector<idx> result(surface().cells().size());
+        for (std::size_t c = 0; c < result.size(); ++c) result[c] = model_.meshes[origin(c, 0).first];
+        return result;
+    }
+
     /// The mesh that each point is of.
     std::vector<idx> point_meshes() const
     {

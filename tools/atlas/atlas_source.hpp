@@ -35,6 +35,10 @@ public:
     /// Surface to be mapped: the triangles of the file, or the repaired ones.
     const mesh<triangle>& surface() const { return repaired_ ? repaired_->surface : *whole_; }
 
+    /// The points of the surface in the scene that the file is of, by whose lengths it is mapped.
+    const std::vector<vec3>& points_in_scene() const { return placed_.empty() ? surface().points() : placed_; }
+    bool is_placed() const { return !placed_.empty(); }
+
     /// The vertex of the file that a vertex of the surface is.
     idx vertex_origin(idx v) const { return repaired_ ? repaired_->vertex_origins[static_cast<std::size_t>(v)] : v; }
 
@@ -90,6 +94,7 @@ protected:
 
     void take(mesh<triangle> whole) { whole_.emplace(std::move(whole)); }
     void take(repaired_surface repaired) { repaired_.emplace(std::move(repaired)); }
+    void place(std::vector<vec3> points) { placed_ = std::move(points); }
 
     /// The triangle of the file and the corner of it that are corner k of triangle c of the surface.
     std::pair<std::size_t, std::size_t> origin(std::size_t c, std::size_t k) const
@@ -113,6 +118,7 @@ private:
     vec2 origin_;
     std::optional<mesh<triangle>> whole_;      // of the file as it is,
     std::optional<repaired_surface> repaired_; // or this
+    std::vector<vec3> placed_;                 // of it; none: as they are
 };
 
 struct source_options
@@ -123,6 +129,7 @@ struct source_options
     int texcoord_set = 0;       ///< of glTF: the set that is written,
     int read_texcoord_set = 0;  ///< and the one that is read
     vec2 origin = vec2(0.0);    ///< atlas_params::origin
+    bool in_scene = true;       ///< lengths of glTF are those of its scenes, not of its meshes
 };
 
 /// Throws io_error, mesh_error; repair_error if no triangle is left.

@@ -12,6 +12,7 @@
 
 #include <taut/files.hpp>
 #include <taut/gltf.hpp>
+#include <taut/impl/files/gltf/scene.hpp>
 #include <taut/impl/files/gltf/source.hpp>
 #include <taut/types.hpp>
 

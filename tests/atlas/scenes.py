@@ -1,0 +1,317 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""scenes.py TAUT FOLDER: `taut atlas` of scenes of glTF: the scales of nodes, instances, densities by name. What it writes is read
+and measured by code of the test."""
+import json
+import math
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+
+TAUT, FOLDER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+FORMATS = {5120: ("b", 127), 5121: ("B", 255), 5122: ("h", 32767), 5123: ("H", 65535), 5125: ("I", 1), 5126: ("f", 1)}
+WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+
+
+def run(*words, code=0):
+    done = subprocess.run([str(TAUT), *map(str, words)], cwd=FOLDER, capture_output=True, text=True, timeout=120)
+    assert done.returncode == code, (words, done.returncode, done.stdout, done.stderr)
+    return done.stdout if code == 0 else done.stderr
+
+
+def atlas(name, *options, out="out.glb"):
+    """What --stats says."""
+    run("atlas", name, "-o", out, "--quiet", "--stats", "s.json", *options)
+    told = json.loads((FOLDER / "s.json").read_text())
+    assert told["flipped"] == told["overlaps"] == 0
+    return told
+
+
+# Models
+
+def cube(n=2):
+    """Points and triangles of the surface of [0, 1]^3, n^2 squares a side."""
+    points, triangles, number = [], [], {}
+
+    def vertex(p):
+        if p not in number:
+            number[p] = len(points)
+            points.append(tuple(c / n for c in p))
+        return number[p]
+
+    for axis in range(3):
+        for side in (0, n):
+            for i in range(n):
+                for j in range(n):
+                    def at(a, b):
+                        p = [0, 0, 0]
+                        p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, a, b
+                        return vertex(tuple(p))
+                    q = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
+                    q = q if side else q[::-1]
+                    triangles += [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]
+    return points, triangles
+
+
+def flat(rows):
+    return [x for row in rows for x in (row if isinstance(row, (tuple, list)) else [row])]
+
+
+class Model:
+    """Makes a document piece by piece."""
+
+    def __init__(self, **members):
+        self.document = {"asset": {"version": "2.0"}, "accessors": [], "bufferViews": [], "meshes": [], **members}
+        self.bytes = b""
+
+    def array(self, rows, component=5126, kind="VEC3", **members):
+        numbers = flat(rows)
+        if component in (5121, 5123) and kind == "VEC3":  # rows begin at multiples of four bytes
+            stride = 4 if component == 5121 else 8
+            data = b"".join(struct.pack("<3" + FORMATS[component][0], *row).ljust(stride, b"\0") for row in rows)
+            view = {"byteStride": stride}
+        else:
+            data, view = struct.pack("<%d%s" % (len(numbers), FORMATS[component][0]), *numbers), {}
+        self.bytes += bytes(-len(self.bytes) % 4)
+        self.document["bufferViews"].append({"buffer": 0, "byteOffset": len(self.bytes), "byteLength": len(data), **view})
+        self.document["accessors"].append({"bufferView": len(self.document["bufferViews"]) - 1, "componentType": component,
+                                           "type": kind, "count": len(numbers) // WIDTHS[kind], **members})
+        self.bytes += data
+        return len(self.document["accessors"]) - 1
+
+    def mesh(self, points, triangles, component=5126, name=None, attributes=None, **members):
+        low, high = [min(p[k] for p in points) for k in range(3)], [max(p[k] for p in points) for k in range(3)]
+        position = self.array(points, component, min=low, max=high)
+        primitive = {"attributes": {"POSITION": position, **(attributes or {})},
+                     "indices": self.array(triangles, 5123, "SCALAR"), **members}
+        self.document["meshes"].append({"primitives": [primitive], **({"name": name} if name else {})})
+        return len(self.document["meshes"]) - 1
+
+    def write(self, name, nodes, roots=None, **members):
+        below = {c for n in nodes for c in n.get("children", [])}
+        roots = [i for i in range(len(nodes)) if i not in below] if roots is None else roots
+        document = {**self.document, "scene": 0, "scenes": [{"nodes": roots}], "nodes": nodes,
+                    "buffers": [{"byteLength": len(self.bytes)}], **members}
+        text = json.dumps(document).encode()
+        text += b" " * (-len(text) % 4)
+        data = self.bytes + bytes(-len(self.bytes) % 4)
+        (FOLDER / name).write_bytes(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data)) +
+                                    struct.pack("<II", len(text), 0x4E4F534A) + text +
+                                    struct.pack("<II", len(data), 0x004E4942) + data)
+
+
+def two_cubes():
+    model = Model()
+    for name in ("small", "large"):
+        model.mesh(*cube(), name=name)
+    return model
+
+
+# What comes back
+
+def product(a, b):
+    """Of two matrices of four columns."""
+    return [[sum(a[k][r] * b[c][k] for k in range(4)) for r in range(4)] for c in range(4)]
+
+
+def matrix(node):
+    if "matrix" in node:
+        return [node["matrix"][4 * c:4 * c + 4] for c in range(4)]
+    x, y, z, w = node.get("rotation", (0, 0, 0, 1))
+    s, t = node.get("scale", (1, 1, 1)), node.get("translation", (0, 0, 0))
+    turn = [[1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)],
+            [2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)],
+            [2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)]]
+    return [[s[c] * e for e in turn[c]] + [0] for c in range(3)] + [[*t, 1]]
+
+
+def read(name):
+    """The document and a function that gives the rows of an accessor."""
+    data = (FOLDER / name).read_bytes()
+    size = struct.unpack("<I", data[12:16])[0]
+    document, rest = json.loads(data[20:20 + size]), data[28 + size:]
+
+    def rows(number):
+        a = document["accessors"][number]
+        view, (letter, most), n = document["bufferViews"][a["bufferView"]], FORMATS[a["componentType"]], WIDTHS[a["type"]]
+        stride, at = view.get("byteStride", struct.calcsize("<%d%s" % (n, letter))), view.get("byteOffset", 0) + a.get("byteOffset", 0)
+        found = [struct.unpack_from("<%d%s" % (n, letter), rest, at + i * stride) for i in range(a["count"])]
+        return [tuple(c / most for c in r) for r in found] if a.get("normalized") else found
+
+    return document, rows
+
+
+def drawn(name, texcoord="TEXCOORD_0"):
+    """For each node that draws a mesh: number, and points in the scene and texture coordinates of its triangles."""
+    document, rows = read(name)
+    nodes, found = document["nodes"], []
+
+    def go(n, above):
+        place = product(above, matrix(nodes[n]))
+        for p in document["meshes"][nodes[n]["mesh"]]["primitives"] if "mesh" in nodes[n] else []:
+            points, uv = rows(p["attributes"]["POSITION"]), rows(p["attributes"][texcoord])
+            index = flat(rows(p["indices"]))
+            placed = [[sum(place[k][r] * (*x, 1)[k] for k in range(4)) for r in range(3)] for x in points]
+            corners = [index[i:i + 3] for i in range(0, len(index), 3)]
+            found.append((n, [[placed[v] for v in c] for c in corners], [[uv[v] for v in c] for c in corners]))
+        for child in nodes[n].get("children", []):
+            go(child, place)
+
+    for root in document["scenes"][0]["nodes"]:
+        go(root, [[float(r == c) for r in range(4)] for c in range(4)])
+    return found
+
+
+def area3(a, b, c):
+    u, v = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
+    return math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2
+
+
+def area2(a, b, c):
+    return abs((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2
+
+
+def densities(name, resolution):
+    """Of each drawing node, least and largest texels a unit of the scene, by areas of triangles."""
+    result = {}
+    for node, points, uv in drawn(name):
+        ratios = [resolution * math.sqrt(area2(*t) / area3(*p)) for p, t in zip(points, uv)]
+        low, high = result.get(node, (math.inf, 0))
+        result[node] = min(low, *ratios), max(high, *ratios)
+    return result
+
+
+def require_densities(name, resolution, wanted):
+    found = densities(name, resolution)
+    assert found.keys() == wanted.keys(), (found, wanted)
+    for node, (low, high) in found.items():
+        assert abs(low / wanted[node] - 1) < 1e-3 and abs(high / wanted[node] - 1) < 1e-3, (node, low, high, wanted)
+
+
+# Scales of nodes
+
+PAGE = ("--texels-per-unit", 16, "--resolution", 512, "--max-distortion", 4.000001)  # sides are charts, or unfold
+
+
+def test_density_is_that_of_the_scene():
+    two_cubes().write("two.glb", [{"mesh": 0}, {"mesh": 1, "scale": [10, 10, 10]}])
+    told = atlas("two.glb", *PAGE)
+    require_densities("out.glb", 512, {0: 16, 1: 16})
+    assert any("scale meshes by 1 to 10" in n for n in told["notes"]), told["notes"]
+    assert abs(told["distortion"] - 4) < 1e-6 and told["density_spread"] < 1e-4
+    told = atlas("two.glb", *PAGE, "--density-in", "file")
+    require_densities("out.glb", 512, {0: 16, 1: 1.6})
+    assert not any("scale meshes" in n for n in told["notes"]), told["notes"]
+    # Of one joined file the points are those of the meshes.
+    run("atlas", "two.glb", "two.glb", "-o", "joined.obj", "--quiet", *PAGE)
+    points = [line.split()[1:] for line in (FOLDER / "joined.obj").read_text().splitlines() if line.startswith("v ")]
+    assert max(float(x) for p in points for x in p) == 1
+
+
+def test_parents_and_matrices_count():
+    turn = [math.sin(0.3), 0, 0, math.cos(0.3)]
+    nodes = [{"children": [1], "scale": [4, 4, 4], "rotation": turn, "translation": [7, 8, 9]},
+             {"children": [2], "matrix": [0, 0.5, 0, 0, -0.5, 0, 0, 0, 0, 0, 0.5, 0, 1, 2, 3, 1]},
+             {"mesh": 0, "rotation": turn}, {"children": [4], "scale": [0.25] * 3}, {"mesh": 1}]
+    two_cubes().write("chain.glb", nodes)
+    atlas("chain.glb", *PAGE)
+    require_densities("out.glb", 512, {2: 16, 4: 16})
+
+
+def test_shapes_are_those_of_the_scene():
+    """A box of sides 1, 2 and 4, and one that shears: charts are as they are drawn."""
+    nodes = [{"mesh": 0, "scale": [1, 2, 4]}, {"mesh": 1, "matrix": [1, 0, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}]
+    two_cubes().write("shapes.glb", nodes)
+    told = atlas("shapes.glb", *PAGE)
+    require_densities("out.glb", 512, {0: 16, 1: 16})
+    assert abs(told["distortion"] - 4) < 1e-6
+
+
+def test_quantized_meshes_count_as_what_they_stand_for():
+    model = Model(extensionsUsed=["KHR_mesh_quantization"])
+    points, triangles = cube()
+    for most in (4096, 512):
+        model.mesh([[round(c * most) for c in p] for p in points], triangles, 5123)
+    model.write("quantized.glb", [{"mesh": 0, "scale": [1 / 4096] * 3}, {"mesh": 1, "scale": [1 / 512] * 3}])
+    told = atlas("quantized.glb", "--resolution", 512, "--max-distortion", 4.000001)
+    (low, high), (low2, high2) = densities("out.glb", 512).values()
+    assert max(high, high2) / min(low, low2) < 1.001 and abs(told["distortion"] - 4) < 1e-6
+
+
+def test_a_skin_places_its_mesh():
+    """As quantized models have it: the scale is in the inverse bind matrices, and the node's own does not count."""
+    model = Model(extensionsUsed=["KHR_mesh_quantization"])
+    points, triangles = cube()
+    count = len(points)
+    skinned = {"JOINTS_0": model.array([(0, 0, 0, 0)] * count, 5121, "VEC4"),
+               "WEIGHTS_0": model.array([(1, 0, 0, 0)] * count, 5126, "VEC4")}
+    model.mesh([[round(c * 256) for c in p] for p in points], triangles, 5123, attributes=skinned)
+    model.mesh(points, triangles)
+    inverse = model.array([[1 / 256 if i % 5 == 0 and i < 15 else float(i == 15) for i in range(16)]], 5126, "MAT4")
+    model.write("skinned.glb", [{"mesh": 0, "skin": 0, "scale": [50, 50, 50]}, {"mesh": 1}, {"scale": [3, 3, 3]}],
+                skins=[{"joints": [2], "inverseBindMatrices": inverse}])
+    atlas("skinned.glb", *PAGE)
+    found = densities("out.glb", 512)
+    assert abs(found[1][0] / 16 - 1) < 1e-3 and abs(found[0][0] * 50 * 256 / 3 / 16 - 1) < 1e-3, found  # 3 / 256, not 50
+
+
+def test_the_largest_of_several_nodes_counts():
+    nodes = [{"mesh": 0, "scale": [2, 2, 2]}, {"mesh": 0, "scale": [5, 5, 5]}, {"mesh": 1}, {"mesh": 1, "scale": [99, 99, 99]}]
+    two_cubes().write("several.glb", nodes, roots=[0, 1, 2])  # the last one is in no scene
+    told = atlas("several.glb", *PAGE)
+    require_densities("out.glb", 512, {0: 40, 1: 16, 2: 16})
+    assert any("the largest counts: 1 mesh (0)" in n for n in told["notes"]), told["notes"]
+
+
+def test_instances_of_an_extension_have_scales():
+    model = two_cubes()
+    attributes = {"SCALE": model.array([(2, 2, 2), (8, 8, 8)]), "TRANSLATION": model.array([(0, 0, 0), (50, 0, 0)])}
+    model.write("gpu.glb", [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}}, {"mesh": 1}],
+                extensionsUsed=["EXT_mesh_gpu_instancing"])
+    told = atlas("gpu.glb", *PAGE)
+    require_densities("out.glb", 512, {0: 128, 1: 16})  # the node itself has no scale
+    assert any("the largest counts: 1 mesh (0)" in n for n in told["notes"]), told["notes"]
+
+
+def test_odd_places_do_no_harm():
+    far, mirrored = {"mesh": 0, "translation": [1e15, 0, 0], "scale": [2, 2, 2]}, {"mesh": 1, "scale": [-1, 1, 1]}
+    two_cubes().write("odd.glb", [far, mirrored])
+    told = atlas("odd.glb", *PAGE, "--hide-seams", "strong")
+    document, rows = read("out.glb")
+    for number, density in ((0, 32), (1, 16)):
+        p = document["meshes"][number]["primitives"][0]
+        points, uv, index = rows(p["attributes"]["POSITION"]), rows(p["attributes"]["TEXCOORD_0"]), flat(rows(p["indices"]))
+        for i in range(0, len(index), 3):
+            c = index[i:i + 3]
+            found = 512 * math.sqrt(area2(*(uv[v] for v in c)) / area3(*(points[v] for v in c)))
+            assert abs(found / density - 1) < 1e-3, (number, found)
+    two_cubes().write("odd.glb", [{"mesh": 0, "scale": [1, 1, 0]}, {"mesh": 1, "scale": [0, 0, 0]}])
+    told = atlas("odd.glb", *PAGE)
+    assert any("instead: 2 meshes (0, 1)" in n for n in told["notes"]), told["notes"]
+
+
+def test_nodes_that_are_none_are_refused():
+    def fault(nodes, **members):
+        two_cubes().write("bad.glb", nodes, **members)
+        return run("atlas", "bad.glb", "-o", "x.glb", code=3)
+
+    assert "nodes 1 is below itself" in fault([{"mesh": 0}, {"children": [2]}, {"children": [1]}], roots=[0])
+    assert "nodes 2 is a child of two nodes" in fault([{"children": [2]}, {"children": [2]}, {"mesh": 0}])
+    assert "nodes 0 has a scale that is none; give 3 numbers" in fault([{"mesh": 0, "scale": [1, 2]}])
+    assert "nodes 0 has a matrix that is none" in fault([{"mesh": 0, "matrix": ["1"] * 16}])
+    assert "rotation of length 0" in fault([{"mesh": 0, "rotation": [0, 0, 0, 0]}])
+    assert "meshes 7 is named" in fault([{"mesh": 7}])
+    assert "nodes 9 is named" in fault([{"mesh": 0, "children": [9]}], roots=[0])
+    (FOLDER / "cube.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert "--density-in needs glTF" in run("atlas", "cube.obj", "-o", "x.obj", "--density-in", "file", code=2)
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+for name, test in list(globals().items()):
+    if name.startswith("test_"):
+        test()
+        print("passed:", name[5:])
+shutil.rmtree(FOLDER)
