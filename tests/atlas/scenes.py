@@ -308,6 +308,100 @@ def test_nodes_that_are_none_are_refused():
     assert "--density-in needs glTF" in run("atlas", "cube.obj", "-o", "x.obj", "--density-in", "file", code=2)
 
 
+# Densities by name
+
+def test_a_mesh_a_node_a_material_gets_more_texels():
+    model = Model(materials=[{"name": "skin"}, {"name": "cloth=blue"}])
+    for name, material in (("hero", 0), ("crowd", 1), ("", 0)):
+        model.mesh(*cube(), name=name, material=material)
+    model.write("named.glb", [{"mesh": 0}, {"mesh": 1, "scale": [3, 3, 3], "name": "back row"}, {"mesh": 2, "name": "dog"}])
+    atlas("named.glb", *PAGE, "--density", "hero=2")
+    require_densities("out.glb", 512, {0: 32, 1: 16, 2: 16})
+    atlas("named.glb", *PAGE, "--density", "skin=0.5", "--density", "dog=3", "--density", "cloth=blue=2")
+    require_densities("out.glb", 512, {0: 8, 1: 32, 2: 24})  # the dog is of skin, too
+    atlas("named.glb", *PAGE, "--density", "back row=0.25", "--density-in", "file")
+    require_densities("out.glb", 512, {0: 16, 1: 4 / 3, 2: 16})
+    told = atlas("named.glb", "--density", "hero=2", "--resolution", 512, "--max-distortion", 4.000001)
+    (hero, _), (crowd, _), (dog, _) = densities("out.glb", 512).values()
+    assert abs(hero / dog - 2) < 2e-3 and abs(crowd / dog - 1) < 1e-3
+    fault = run("atlas", "named.glb", "-o", "x.glb", "--density", "heros=2", code=4)
+    for name in ("hero", "crowd", "back row", "dog", "skin", "cloth=blue"):
+        assert f"'{name}'" in fault, fault
+    for wrong in ("hero", "=2", "hero=", "hero=0", "hero=-1", "hero=nan", "hero=inf", "hero=2x"):
+        assert "such as face=2" in run("atlas", "named.glb", "-o", "x.glb", "--density", wrong, code=2), wrong
+    assert "twice" in run("atlas", "named.glb", "-o", "x.glb", "--density", "hero=2", "--density", "hero=3", code=2)
+
+
+def grid(columns):
+    """A flat strip of quads of side 1, one to the right of the other, and the lines of OBJ before some of them."""
+    lines = ["v %d %d 0" % (x, y) for x in range(len(columns) + 1) for y in (0, 1)]
+    for k, before in enumerate(columns):
+        lines += [*before, "f %d %d %d %d" % (2 * k + 1, 2 * k + 3, 2 * k + 4, 2 * k + 2)]
+    return "\n".join(lines) + "\n"
+
+
+def obj_densities(name, resolution=512):
+    """Texels a unit of each face, in their order, by its first side."""
+    rows = {"v": [], "vt": [], "f": []}
+    for line in (FOLDER / name).read_text().splitlines():
+        w = line.split()
+        if w and w[0] in rows:
+            rows[w[0]].append(w[1:])
+    found = []
+    for f in rows["f"]:
+        (a, t), (b, u) = ([int(i) - 1 for i in corner.split("/")[:2]] for corner in f[:2])
+        found.append(round(resolution * math.dist([float(x) for x in rows["vt"][t]], [float(x) for x in rows["vt"][u]]) /
+                           math.dist([float(x) for x in rows["v"][a]], [float(x) for x in rows["v"][b]]), 2))
+    return found
+
+
+def test_groups_objects_and_materials_of_obj():
+    (FOLDER / "strip.obj").write_text(grid([[], ["o box"], ["g left  top "], ["usemtl wood"], ["g two words"], ["o ball", "g"]]))
+
+    def found(*given):
+        atlas("strip.obj", *PAGE, *[w for text in given for w in ("--density", text)], out="strip.out.obj")
+        return obj_densities("strip.out.obj")
+
+    assert found("box=2") == [16, 32, 32, 32, 32, 16], found("box=2")
+    assert found("left=2") == found("top=2") == found("left  top=2") == [16, 16, 32, 32, 16, 16]
+    assert found("two words=2") == [16, 16, 16, 16, 32, 16]
+    assert found("wood=2", "ball=2") == [16, 16, 16, 32, 32, 64]
+    fault = run("atlas", "strip.obj", "-o", "x.obj", "--density", "roof=2", code=4)
+    assert all(f"'{name}'" in fault for name in ("box", "ball", "left", "top", "wood", "two words")), fault
+    # Charts of the file are parted where the density changes, and polygons are whole.
+    assert found() == [16] * 6
+    told = atlas("strip.out.obj", *PAGE[:4], "--charts", "pack", "--density", "wood=2", out="strip.pack.obj")
+    assert told["charts"] == 2
+    assert obj_densities("strip.pack.obj") == [16, 16, 16, 32, 32, 32]
+    (FOLDER / "plain.obj").write_text(grid([[], []]))
+    assert "it names none" in run("atlas", "plain.obj", "-o", "x.obj", "--density", "roof=2", code=4)
+
+
+def test_files_of_several_have_densities():
+    (FOLDER / "a.obj").write_text(grid([[]]))
+    (FOLDER / "sub").mkdir()
+    (FOLDER / "sub" / "b.obj").write_text(grid([[], []]))
+    for name in ("b.obj", "sub/b.obj"):
+        run("atlas", "a.obj", "sub/b.obj", "-o", "a.out.obj", "-o", "b.out.obj", "--quiet", *PAGE, "--density", name + "=2")
+        assert obj_densities("a.out.obj") == [16] and obj_densities("b.out.obj") == [32, 32]
+    run("atlas", "a.obj", "sub/b.obj", "-o", "ab.obj", "--quiet", *PAGE, "--density", "a.obj=0.5")
+    assert sorted(obj_densities("ab.obj")) == [8, 8, 16, 16, 16, 16]  # as triangles
+    fault = run("atlas", "a.obj", "sub/b.obj", "-o", "x.obj", "--density", "c.obj=2", code=4)
+    assert "'a.obj', 'sub/b.obj'" in fault, fault
+    run("atlas", "a.obj", "-o", "x.obj", "--density", "a.obj=2", code=4)  # alone it has nothing to be denser than
+
+
+def test_copies_of_another_density_lie_apart():
+    text = "".join("v %g %g %g\n" % (x + 9 * k, y, z) for k in range(3) for x, y, z in ((0, 0, 0), (3, 0, 0), (0, 2, 0), (0, 0, 1)))
+    text += "".join("g part%d\n" % k + "".join("f %d %d %d\n" % tuple(4 * k + i for i in f) for f in
+                                               ((1, 3, 2), (1, 2, 4), (2, 3, 4), (3, 1, 4))) for k in range(3))
+    (FOLDER / "copies.obj").write_text(text)
+    stack = atlas("copies.obj", *PAGE, "--stack", "similar", out="copies.out.obj")["stacked"]
+    told = atlas("copies.obj", *PAGE, "--stack", "similar", "--density", "part2=2", out="copies.out.obj")
+    assert told["stacked"] == stack / 2, (told["stacked"], stack)
+    assert obj_densities("copies.out.obj") == [16] * 8 + [32] * 4
+
+
 shutil.rmtree(FOLDER, ignore_errors=True)
 FOLDER.mkdir(parents=True)
 for name, test in list(globals().items()):

@@ -19,6 +19,7 @@
 #include <atlas/atlas_report.hpp>
 #include <atlas/atlas_source.hpp>
 #include <atlas/joined_surfaces.hpp>
+#include <atlas/part_densities.hpp>
 #include <atlas/pinned_faces.hpp>
 #include <atlas/seam_edges.hpp>
 #include <picture/render_picture.hpp>
@@ -161,7 +162,8 @@ private:
         const auto& m = joined_->surface;
         auto params = to_params(options_);
         const auto f = impl::facets(m);
-        const auto seams = seams_of(sources_, *joined_, f, options_);
+        params.packing.densities = densities_of(sources_, options_.inputs, options_.densities);
+        const auto seams = seams_of(sources_, *joined_, f, options_, params.packing.densities);
         params.charts.seams = seams;
         const auto weights = seam_weights_of(sources_, *joined_, f, options_);
         params.charts.weights = weights;
@@ -204,7 +206,7 @@ private:
         }
         report_.atlas = atlas_->report;
         report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
-        if (options_.max_stretch && atlas_->report.stretch_l2 > *options_.max_stretch)
+        if (options_.max_stretch && options_.densities.empty() && atlas_->report.stretch_l2 > *options_.max_stretch)
             report_.notes.push_back("the stretch is " + number(atlas_->report.stretch_l2, 4) +
                                     ", above --max-stretch; `--prefer packing` cuts further");
         if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;

@@ -6,9 +6,11 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include <taut/gltf.hpp>
 
+#include "atlas/part_densities.hpp"
 #include "shared/choices.hpp"
 #include "shared/failure.hpp"
 #include "shared/shared_options.hpp"
@@ -103,6 +105,13 @@ void declare_packing(const subcommand& app, atlas_options& o)
         .check(number_that([](double x) { return x > 0 && std::isfinite(x); }, "must be positive"));
     add_choice<bool>(app, "--density-in", o.in_scene, {{"world", true}, {"file", false}},
                      "Lengths of glTF as its nodes place the meshes, or as the meshes have them");
+    app.add_option("--density", o.densities,
+                   "Factor of the texel density of the mesh, node, material, object, group or, of several inputs, file "
+                   "of this name; once for each")
+        .type_name("NAME=FACTOR")
+        .one_value_each()
+        .check([](const std::string& text)
+               { return density_in(text) ? "" : "must be a name, = and a positive number, such as face=2"; });
     app.add_option("--max-resolution", o.max_resolution,
                    "With --texels-per-unit: double the resolution up to N until the charts fit into one tile, or those "
                    "of --udim")
@@ -247,6 +256,10 @@ void check(const atlas_options& o)
         throw usage_error("--keep-charts names faces of one surface; map the surfaces one at a time");
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
     const bool others = !std::all_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
+    std::set<std::string> named;
+    for (const auto& density : o.densities)
+        if (const auto name = density_in(density)->name; !named.insert(name).second)
+            throw usage_error("--density " + name + ": is given twice; give one factor");
     if (!o.in_scene && !gltf) throw usage_error("--density-in needs glTF input, which has a scene; leave it out");
     if (o.texcoord_set > 0 && !gltf) throw usage_error("--texcoord-set needs glTF input; leave it out");
     if (o.read_texcoord_set && !gltf) throw usage_error("--read-texcoord-set needs glTF input; leave it out");
@@ -340,6 +353,7 @@ std::string as_command_line(const atlas_options& o)
     option("--resolution", o.size);
     if (o.texels_per_unit > 0) option("--texels-per-unit", number(o.texels_per_unit, 9));
     if (!o.in_scene) option("--density-in", "file");
+    for (const auto& density : o.densities) option("--density", density);
     if (o.max_resolution > 0) option("--max-resolution", std::to_string(o.max_resolution));
     if (o.align > 1) option("--align", std::to_string(o.align));
     if (o.tiles) option("--udim", std::to_string(*o.tiles));

@@ -27,6 +27,7 @@ enum class chart_use
 struct atlas_options
 {
     std::vector<std::string> inputs, outputs; ///< as many of these as of those
+    std::vector<std::string> densities;       ///< NAME=FACTOR
     std::string seams, seam_weights, pinned, stats, picture, render, report, device, progress;
     io::surface_format format{};
     chart_preference prefer = chart_preference::seams;

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include <taut/impl/core/core/disjoint_sets.hpp>
 #include <taut/impl/core/mesh/describe.hpp>
@@ -40,6 +41,44 @@ std::vector<idx> face_materials(std::string_view text)
                 now = numbers.emplace(in.rest_of_line(), static_cast<idx>(numbers.size())).first->second;
         });
     return numbers.size() > 1 ? materials : std::vector<idx>();
+}
+
+/// Names that OBJ gives to the faces that follow.
+struct face_names
+{
+    std::string_view object, groups, material;
+
+    /// Calls f with each; several groups in a line are also one, as some write names with blanks.
+    template <class F>
+    void for_each(F f) const
+    {
+        for (const std::string_view name : {object, groups, material})
+            if (!name.empty()) f(name);
+        io::impl::scanner in(groups, {});
+        for (std::string_view word = in.word(); !word.empty(); word = in.word()) f(word);
+    }
+};
+
+/// Calls face(names, changed) for each face of OBJ text; changed: since the face before.
+template <class Face>
+void for_each_named_face(std::string_view text, Face face)
+{
+    face_names names;
+    bool changed = true;
+    io::impl::scanner in(text, {});
+    io::impl::for_each_statement(in,
+                                 [&](std::string_view key, const char*)
+                                 {
+                                     if (io::impl::is_face(key)) face(names, std::exchange(changed, false));
+                                     std::string_view* const name = key == "o"        ? &names.object
+                                                                    : key == "g"      ? &names.groups
+                                                                    : key == "usemtl" ? &names.material
+                                                                                      : nullptr;
+                                     if (!name) return;
+                                     *name = in.rest_of_line();
+                                     name->remove_suffix(name->size() - (name->find_last_not_of(" \t") + 1));
+                                     changed = true;
+                                 });
 }
 
 /// Returns whether triangles are one piece, by common corners.
@@ -88,6 +127,34 @@ public:
         if (materials.size() != file_.faces.sizes.size()) return {}; // none, or a face that is none
         auto result = faces();
         for (idx& face : result) face = materials[static_cast<std::size_t>(face)];
+        return result;
+    }
+
+    std::set<std::string> part_names() const override
+    {
+        std::set<std::string> result;
+        for_each_named_face(file_.obj.bytes,
+                            [&](const face_names& names, bool changed)
+                            {
+                                if (changed) names.for_each([&](std::string_view name) { result.emplace(name); });
+                            });
+        return result;
+    }
+
+    std::vector<char> triangles_of(const std::string& name) const override
+    {
+        std::vector<char> named; // of the faces
+        for_each_named_face(file_.obj.bytes,
+                            [&](const face_names& names, bool changed)
+                            {
+                                char is = changed ? 0 : named.back();
+                                if (changed) names.for_each([&](std::string_view own) { is = own == name ? 1 : is; });
+                                named.push_back(is);
+                            });
+        std::vector<char> result(surface().cells().size(), 0);
+        if (named.size() != file_.faces.sizes.size()) return result; // no OBJ, or a face that is none
+        const auto face = faces();
+        for (std::size_t c = 0; c < result.size(); ++c) result[c] = named[static_cast<std::size_t>(face[c])];
         return result;
     }
 
@@ -209,8 +276,9 @@ public:
             near_edges = describe_near_edges(model_.points, model_.triangles, bodies);
             take(mesh<triangle>(model_.points, model_.triangles));
         }
+        draws_ = io::impl::drawn_meshes(model_.source);
         if (!options.in_scene) return;
-        auto points = placed_points(surface(), meshes(), io::impl::drawn_meshes(model_.source), notes);
+        auto points = placed_points(surface(), meshes(), draws_, notes);
         if (points != surface().points()) place(std::move(points));
     }
 
@@ -228,7 +296,53 @@ public:
         return gltf_files(path, model_, map, set_, numbers, changes);
     }
 
+    std::set<std::string> part_names() const override
+    {
+        std::set<std::string> result;
+        for (const auto* const numbers : {&model_.meshes, &model_.materials})
+            for (const idx i : std::set<idx>(numbers->begin(), numbers->end()))
+                result.merge(numbers == &model_.meshes ? names_of_mesh(i) : names_of_item("materials", i));
+        return result;
+    }
+
+    std::vector<char> triangles_of(const std::string& name) const override
+    {
+        std::map<idx, char> of_mesh, of_material;
+        for (const idx m : model_.meshes) of_mesh.try_emplace(m, 0);
+        for (const idx m : model_.materials) of_material.try_emplace(m, 0);
+        for (auto& [m, is] : of_mesh) is = names_of_mesh(m).contains(name) ? 1 : 0;
+        for (auto& [m, is] : of_material) is = names_of_item("materials", m).contains(name) ? 1 : 0;
+        std::vector<char> result(surface().cells().size());
+        for (std::size_t c = 0; c < result.size(); ++c)
+        {
+            const std::size_t cell = origin(c, 0).first;
+            result[c] = of_mesh[model_.meshes[cell]] != 0 || of_material[model_.materials[cell]] != 0 ? 1 : 0;
+        }
+        return result;
+    }
+
 private:
+    /// The name of an item of a list of the document, if it has one.
+    std::set<std::string> names_of_item(const char* list, idx i) const
+    {
+        if (i < 0 || !model_.source.document.contains(list)) return {};
+        const auto& items = model_.source.document[list];
+        const auto number = static_cast<std::size_t>(i);
+        const auto* const name = number < items.size() ? io::impl::find_in(items[number], {"name"}) : nullptr;
+        if (!name || !name->is_string() || name->get_ref<const std::string&>().empty()) return {};
+        return {name->get<std::string>()};
+    }
+
+    /// That of a mesh, and those of the nodes that draw it.
+    std::set<std::string> names_of_mesh(idx i) const
+    {
+        auto result = names_of_item("meshes", i);
+        for (const auto& draw : draws_)
+            if (draw.mesh == static_cast<std::size_t>(i))
+                result.merge(names_of_item("nodes", static_cast<idx>(draw.node)));
+        return result;
+    }
+
     /// The mesh that each triangle of the surface is of.
     std::vector<idx> meshes() const
     {
@@ -254,6 +368,7 @@ private:
     }
 
     io::gltf_model model_;
+    std::vector<io::impl::gltf_draw> draws_;
     int set_;
 };
 

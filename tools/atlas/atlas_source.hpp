@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -62,6 +63,12 @@ public:
 
     /// A label a triangle where the file parts the surface, as by materials; or empty.
     virtual std::vector<idx> parts() const { return {}; }
+
+    /// Names of meshes, nodes, materials, objects and groups of the file that have triangles in it.
+    virtual std::set<std::string> part_names() const { return {}; }
+
+    /// One flag per triangle of the surface: whether a part of this name has it.
+    virtual std::vector<char> triangles_of(const std::string& name) const = 0;
 
     /// The number of the polygon that each triangle is of; or empty, if all faces are triangles.
     virtual std::vector<idx> polygons() const { return {}; }
