@@ -308,6 +308,146 @@ def test_nodes_that_are_none_are_refused():
     assert "--density-in needs glTF" in run("atlas", "cube.obj", "-o", "x.obj", "--density-in", "file", code=2)
 
 
+# Instances
+
+def require_apart(name, texcoord="TEXCOORD_0", samples=512):
+    """No sample of a grid is covered twice by what the nodes draw."""
+    owner = {}
+    for node, _, uv in drawn(name, texcoord):
+        for t, (a, b, c) in enumerate(uv):
+            low, high = [[f(p[d] for p in (a, b, c)) * samples for d in (0, 1)] for f in (min, max)]
+            for i in range(math.floor(low[0]), math.ceil(high[0]) + 1):
+                for j in range(math.floor(low[1]), math.ceil(high[1]) + 1):
+                    p = ((i + 0.37) / samples, (j + 0.61) / samples)
+                    sides = [(v[0] - u[0]) * (p[1] - u[1]) - (v[1] - u[1]) * (p[0] - u[0]) for u, v in ((a, b), (b, c), (c, a))]
+                    if min(sides) > 0 or max(sides) < 0:
+                        assert owner.setdefault((i, j), (node, t)) == (node, t), (owner[i, j], node, t)
+    return owner
+
+
+def chairs():
+    """Three nodes that draw one mesh of two materials, one of them mirrored and one below another; and a table."""
+    model = Model(materials=[{"name": "wood"}, {"name": "cushion"}], extras={"by": "a test"})
+    points, triangles = cube(3)
+    attributes = {"NORMAL": model.array([(0, 0, 1)] * len(points)), "_WEAR": model.array([i / 99 for i in range(len(points))], kind="SCALAR"),
+                  "TEXCOORD_0": model.array([(x, y) for x, y, _ in points], kind="VEC2", name="picture")}
+    m = model.mesh(points, triangles[:60], name="chair", attributes=attributes, material=0, extras={"part": 1})
+    primitive = model.document["meshes"][m]["primitives"]
+    primitive.append({"attributes": dict(primitive[0]["attributes"]), "material": 1,
+                      "indices": model.array(triangles[60:], 5123, "SCALAR")})
+    model.document["meshes"][m]["extras"] = {"sat on": True}
+    points, triangles = cube(1)
+    model.mesh(points, triangles, name="table", attributes={"TEXCOORD_0": model.array([(0, 0)] * 8, kind="VEC2")})
+    nodes = [{"mesh": 0, "name": "left"}, {"mesh": 1, "translation": [0, 4, 0], "children": [2]},
+             {"mesh": 0, "name": "right", "scale": [-1, 1, 1]}, {"mesh": 0, "name": "back", "translation": [5, 5, 5]}]
+    model.write("chairs.glb", nodes)
+
+
+def test_shared_instances_are_told():
+    chairs()
+    told = atlas("chairs.glb", *PAGE, "--texcoord-set", 1)
+    assert any(n.startswith("1 mesh is drawn by several nodes, 3 times in all") for n in told["notes"]), told["notes"]
+    assert len(read("out.glb")[0]["meshes"]) == 2
+
+
+def test_instances_lie_apart():
+    chairs()
+    told = atlas("chairs.glb", *PAGE, "--texcoord-set", 1, "--instances", "apart")
+    assert "2 meshes were added, so that each node draws its own" in told["notes"], told["notes"]
+    require_apart("out.glb", "TEXCOORD_1")
+    before, after = drawn("chairs.glb"), drawn("out.glb")
+    assert [(n, points, uv) for n, points, uv in after] == before  # in their order, with the picture where it was
+    (old, _), (new, _) = read("chairs.glb"), read("out.glb")
+    assert new["meshes"][1]["name"] == "table" and new["extras"] == old["extras"] and new["materials"] == old["materials"]
+    drawing = [n["mesh"] for n in new["nodes"]]
+    assert sorted(drawing) == [0, 1, 2, 3] and drawing[0] == 0 and drawing[1] == 1
+    copies = [new["meshes"][drawing[n]] for n in (0, 2, 3)]
+    maps = set()
+    for mesh in copies:
+        assert mesh["name"] == "chair" and mesh["extras"] == {"sat on": True} and mesh["primitives"][0]["extras"] == {"part": 1}
+        assert [p["material"] for p in mesh["primitives"]] == [0, 1]
+        own = {p["attributes"].pop("TEXCOORD_1") for p in mesh["primitives"]}
+        assert len(own) == 1 and not own & maps
+        maps |= own
+    assert copies[0] == copies[1] == copies[2]  # all else is shared: accessors, too
+    views = {a["bufferView"] for a in new["accessors"]}
+    assert len(views) == len(new["accessors"]) == len(old["accessors"]) + 4 and views == set(range(len(new["bufferViews"])))
+    # What is read again has the places that were written.
+    told = atlas("out.glb", *PAGE[:4], "--texcoord-set", 1, "--charts", "pack", "--instances", "apart", out="again.glb")
+    assert not any("added" in n for n in told["notes"])
+    require_apart("again.glb", "TEXCOORD_1")
+    told = atlas("out.glb", *PAGE, "--texcoord-set", 1, out="again.glb")
+    assert any("4 primitives draw the triangles of others with other texture coordinates" in n for n in told["notes"]), told["notes"]
+
+
+def test_instances_have_lengths_and_names_of_their_own():
+    chairs()
+    told = atlas("chairs.glb", *PAGE, "--instances", "apart", "--density", "right=2", "--density", "chair=1.5")
+    require_apart("out.glb")
+    found = densities("out.glb", 512)
+    for node, wanted in ((0, 24), (1, 16), (2, 48), (3, 24)):
+        assert all(abs(x / wanted - 1) < 1e-3 for x in found[node]), (node, found)
+    two_cubes().write("sizes.glb", [{"mesh": 0, "scale": [k, k, k]} for k in (1, 2, 4)])
+    told = atlas("sizes.glb", *PAGE, "--instances", "apart")
+    require_densities("out.glb", 512, {0: 16, 1: 16, 2: 16})
+    require_apart("out.glb")
+    assert not any("largest counts" in n for n in told["notes"])
+
+
+def test_meshes_of_the_same_triangles_lie_apart():
+    """Instances of other materials are meshes that share accessors; twice in one mesh, triangles are drawn twice at one place."""
+    model = Model(materials=[{"name": "red"}, {"name": "blue"}])
+    model.mesh(*cube(), material=0)
+    primitive = model.document["meshes"][0]["primitives"][0]
+    model.document["meshes"][0]["primitives"].append({**primitive, "material": 1})
+    model.document["meshes"].append({"primitives": [{**primitive, "material": 1}]})
+    model.write("shared.glb", [{"mesh": 0}, {"mesh": 1}])
+    atlas("shared.glb", *PAGE, "--instances", "apart")
+    document, _ = read("out.glb")
+    (first, second), (third,) = ([p["attributes"]["TEXCOORD_0"] for p in m["primitives"]] for m in document["meshes"])
+    assert first == second != third
+    found = [uv for _, _, uv in drawn("out.glb")]
+    assert found[0] == found[1] and not {tuple(map(tuple, t)) for t in found[0]} & {tuple(map(tuple, t)) for t in found[2]}
+
+
+def test_strips_and_small_indices_lie_apart():
+    """Indices of bytes grow where seams need more vertices than these can say, once for all copies."""
+    model = Model()
+    n, m = 15, 16  # a tube
+    points = [(math.cos(2 * math.pi * i / n), math.sin(2 * math.pi * i / n), j / 4) for j in range(m + 1) for i in range(n)]
+    rows = [[j * n + i % n + d * n for i in range(n + 1) for d in (1, 0)] for j in range(m)]
+    strip = [v for row in rows for v in ([row[0]] + row + [row[-1]])]
+    model.mesh(points, [0], name="tube")
+    model.document["meshes"][0]["primitives"][0].update(mode=5, indices=model.array(strip, 5121, "SCALAR"))
+    model.write("strip.glb", [{"mesh": 0}, {"mesh": 0, "translation": [3, 0, 0]}])
+    # Triangles at the ends of rows have no area.
+    told = atlas("strip.glb", "--resolution", 256, "--instances", "apart", "--prefer", "packing", "--repair")
+    require_apart("out.glb", samples=256)
+    document, rows = read("out.glb")
+    first, second = ({**m["primitives"][0]} for m in document["meshes"])
+    assert first["indices"] == second["indices"] and first["attributes"]["POSITION"] == second["attributes"]["POSITION"]
+    assert first["mode"] == 4 and document["accessors"][first["indices"]]["componentType"] == 5123
+
+
+def test_many_instances():
+    two_cubes().write("many.glb", [{"mesh": 0, "translation": [2 * k, 0, 0]} for k in range(300)])
+    atlas("many.glb", "--resolution", 2048, "--instances", "apart", "--prefer", "packing")
+    require_apart("out.glb", samples=1024)
+    assert len(read("out.glb")[0]["meshes"]) == 301
+
+
+def test_instances_that_cannot_lie_apart_are_refused():
+    model = two_cubes()
+    attributes = {"TRANSLATION": model.array([(0, 0, 0), (50, 0, 0)])}
+    model.write("gpu.glb", [{"mesh": 0}, {"mesh": 1, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}}])
+    fault = run("atlas", "gpu.glb", "-o", "x.glb", "--instances", "apart", code=4)
+    assert "node 1 draws mesh 1 2 times by EXT_mesh_gpu_instancing" in fault and "write a node for each" in fault
+    assert any("2 times in all" in n for n in atlas("gpu.glb")["notes"])
+    run("atlas", "cube.obj", "-o", "x.obj", "--instances", "apart", code=2)
+    assert "leave out one" in run("atlas", "gpu.glb", "-o", "x.glb", "--instances", "apart", "--stack", "similar", code=2)
+    assert "give -o once" in run("atlas", "gpu.glb", "gpu.glb", "-o", "x.obj", "--instances", "apart", code=2)
+
+
 # Densities by name
 
 def test_a_mesh_a_node_a_material_gets_more_texels():

@@ -105,6 +105,8 @@ void declare_packing(const subcommand& app, atlas_options& o)
         .check(number_that([](double x) { return x > 0 && std::isfinite(x); }, "must be positive"));
     add_choice<bool>(app, "--density-in", o.in_scene, {{"world", true}, {"file", false}},
                      "Lengths of glTF as its nodes place the meshes, or as the meshes have them");
+    add_choice<bool>(app, "--instances", o.apart, {{"shared", false}, {"apart", true}},
+                     "Nodes of glTF that draw one mesh share its place, or have a copy of the mesh and a place each");
     app.add_option("--density", o.densities,
                    "Factor of the texel density of the mesh, node, material, object, group or, of several inputs, file "
                    "of this name; once for each")
@@ -260,6 +262,9 @@ void check(const atlas_options& o)
     for (const auto& density : o.densities)
         if (const auto name = density_in(density)->name; !named.insert(name).second)
             throw usage_error("--density " + name + ": is given twice; give one factor");
+    if (o.apart && !gltf) throw usage_error("--instances needs glTF input, which has nodes; leave it out");
+    if (o.apart && o.stack)
+        throw usage_error("--stack lays copies on each other, and --instances lays them apart; leave out one of them");
     if (!o.in_scene && !gltf) throw usage_error("--density-in needs glTF input, which has a scene; leave it out");
     if (o.texcoord_set > 0 && !gltf) throw usage_error("--texcoord-set needs glTF input; leave it out");
     if (o.read_texcoord_set && !gltf) throw usage_error("--read-texcoord-set needs glTF input; leave it out");
@@ -290,6 +295,9 @@ void check(const atlas_options& o)
     }
     check_pages(o);
     const bool joined = o.outputs.size() < o.inputs.size();
+    if (joined && o.apart)
+        throw usage_error(
+            "--instances apart: one file of several surfaces has no nodes; give -o once for each surface");
     if (joined && io::is_gltf(o.outputs[0]))
         throw usage_error("-o " + o.outputs[0] +
                           ": several surfaces become one file as .obj; for glTF give -o once "
@@ -352,6 +360,7 @@ std::string as_command_line(const atlas_options& o)
         option("--padding", number(padding_of(o), 9));
     option("--resolution", o.size);
     if (o.texels_per_unit > 0) option("--texels-per-unit", number(o.texels_per_unit, 9));
+    if (o.apart) option("--instances", "apart");
     if (!o.in_scene) option("--density-in", "file");
     for (const auto& density : o.densities) option("--density", density);
     if (o.max_resolution > 0) option("--max-resolution", std::to_string(o.max_resolution));
@@ -378,6 +387,7 @@ source_options to_source_options(const atlas_options& o)
             .texcoord_set = o.texcoord_set,
             .read_texcoord_set = o.read_texcoord_set.value_or(o.texcoord_set),
             .origin = origin_of(o),
+            .apart = o.apart,
             .in_scene = o.in_scene};
 }
 

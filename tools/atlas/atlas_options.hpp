@@ -35,6 +35,7 @@ struct atlas_options
     bool repair = false, keep_seams = false, symmetric = false, upright = false, quiet = false;
     bool stack = false;         ///< copies of charts lie on each other
     bool by_material = false;   ///< a tile for each material
+    bool apart = false;         ///< source_options::apart
     bool in_scene = true;       ///< source_options::in_scene
     std::optional<double> weld; ///< repairs, too
     std::optional<double> max_distortion, mean_distortion, max_stretch;

@@ -277,6 +277,7 @@ public:
             take(mesh<triangle>(model_.points, model_.triangles));
         }
         draws_ = io::impl::drawn_meshes(model_.source);
+        note_shared();
         if (!options.in_scene) return;
         auto points = placed_points(surface(), meshes(), draws_, notes);
         if (points != surface().points()) place(std::move(points));
@@ -322,6 +323,25 @@ public:
     }
 
 private:
+    /// Says which meshes have one place for what is drawn several times.
+    void note_shared()
+    {
+        std::map<std::size_t, std::size_t> times;
+        for (const auto& draw : draws_) times[draw.mesh] += draw.instances;
+        std::size_t meshes = 0, all = 0;
+        for (const auto& [m, n] : times)
+            if (n > 1)
+            {
+                ++meshes;
+                all += n;
+            }
+        if (meshes > 0)
+            notes.push_back(taut::impl::counted(meshes, "mesh is", "meshes are") + " drawn by several nodes, " +
+                            std::to_string(all) +
+                            " times in all, which share places in the atlas; for light maps --instances apart gives "
+                            "each its own");
+    }
+
     /// The name of an item of a list of the document, if it has one.
     std::set<std::string> names_of_item(const char* list, idx i) const
     {
@@ -371,6 +391,27 @@ private:
     std::vector<io::impl::gltf_draw> draws_;
     int set_;
 };
+
+/// The model with a mesh for each node that draws one.
+io::gltf_model parted(io::gltf_model model, const source_options& options)
+{
+    auto& source = model.source;
+    const auto draws = io::impl::drawn_meshes(source);
+    for (const auto& draw : draws)
+        if (draw.instances > 1)
+            throw unsuitable_input(source.path + ": node " + std::to_string(draw.node) + " draws mesh " +
+                                   std::to_string(draw.mesh) + ' ' + std::to_string(draw.instances) +
+                                   " times by EXT_mesh_gpu_instancing, which has one set of texture coordinates for "
+                                   "all; write a node for each instance, or leave out --instances apart");
+    const std::size_t before = source.document["meshes"].size();
+    io::impl::part_meshes(source, draws);
+    const std::size_t more = source.document["meshes"].size() - before;
+    model = io::impl::model_of(std::move(source), options.read_texcoord_set);
+    if (more > 0)
+        model.notes.push_back(taut::impl::counted(more, "mesh was", "meshes were") +
+                              " added, so that each node draws its own");
+    return model;
+}
 
 } // namespace
 
@@ -440,7 +481,11 @@ void atlas_source::note_mirrored(std::vector<std::string>& changes) const
 std::unique_ptr<atlas_source> open_atlas_source(const std::string& path, const source_options& options)
 {
     if (io::is_gltf(path))
-        return std::make_unique<gltf_source>(io::read_gltf(path, options.read_texcoord_set), options);
+    {
+        auto model = io::read_gltf(path, options.read_texcoord_set);
+        return std::make_unique<gltf_source>(options.apart ? parted(std::move(model), options) : std::move(model),
+                                             options);
+    }
     return std::make_unique<surface_source>(io::read_surface_soup(path, options.format), options);
 }
 

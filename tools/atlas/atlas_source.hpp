@@ -136,6 +136,7 @@ struct source_options
     int texcoord_set = 0;       ///< of glTF: the set that is written,
     int read_texcoord_set = 0;  ///< and the one that is read
     vec2 origin = vec2(0.0);    ///< atlas_params::origin
+    bool apart = false;         ///< each node of glTF that draws a mesh has one of its own
     bool in_scene = true;       ///< lengths of glTF are those of its scenes, not of its meshes
 };
 

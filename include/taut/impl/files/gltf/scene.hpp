@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -47,5 +48,10 @@ struct gltf_draw
 /// its mesh as its first joint does; animations and morphing are left aside.
 /// Throws io_error for nodes that are no trees, transforms that are none, instances of different counts.
 std::vector<gltf_draw> drawn_meshes(const gltf_source& source);
+
+/// Gives each node that draws a mesh, but for the first, a copy of the mesh of its own, behind the others: with the
+/// same accessors, until texture coordinates are written. Meshes that share triangles otherwise have their own, too.
+/// Throws io_error where the copies are too many.
+void part_meshes(gltf_source& source, std::span<const gltf_draw> draws);
 
 } // namespace taut::io::impl

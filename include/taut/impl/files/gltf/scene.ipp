@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <taut/impl/files/gltf/accessor.hpp>
 #include <taut/impl/files/gltf/scene.hpp>
@@ -242,6 +243,26 @@ private:
 std::vector<gltf_draw> drawn_meshes(const gltf_source& source)
 {
     return gltf_scenes(source).draws();
+}
+
+void part_meshes(gltf_source& source, std::span<const gltf_draw> draws)
+{
+    source.apart = true;
+    std::size_t left = std::size_t(1) << 26; // bytes of JSON
+    gltf_json& meshes = source.document["meshes"];
+    std::vector<char> is_drawn(meshes.size(), 0);
+    for (const gltf_draw& draw : draws)
+    {
+        if (std::exchange(is_drawn[draw.mesh], 1) == 0) continue;
+        gltf_json copy = meshes[draw.mesh];
+        const std::size_t size = copy.dump().size();
+        if (size > left)
+            throw io_error(source.path,
+                           "too many nodes draw the same meshes for a copy each; draw fewer, or split the scene");
+        left -= size;
+        source.document["nodes"][draw.node]["mesh"] = meshes.size();
+        meshes.push_back(std::move(copy));
+    }
 }
 
 } // namespace taut::io::impl
