@@ -53,6 +53,40 @@ void multiply(test::gltf_json& d, dice& random)
     }
 }
 
+/// Nodes that are a scene, or none.
+void add_nodes(test::gltf_json& d, dice& random)
+{
+    const auto numbers = [&](std::size_t count)
+    {
+        auto list = test::gltf_json::array();
+        for (std::size_t n = random.one_in(20) ? random.below(20) : count; n > 0; --n)
+            list.push_back(random.one_in(30) ? 1e308 : static_cast<double>(random.between(0, 8)) - 4);
+        return list;
+    };
+    auto& nodes = d["nodes"];
+    const std::size_t first = nodes.size();
+    for (std::size_t n = random.between(1, 9); n > 0; --n)
+    {
+        auto node = test::gltf_json::object();
+        if (random.one_in(2)) node["mesh"] = random.one_in(20) ? 5 : 0;
+        if (random.one_in(4)) node["matrix"] = numbers(16);
+        if (random.one_in(3)) node["scale"] = numbers(3);
+        if (random.one_in(3)) node["rotation"] = numbers(4);
+        if (random.one_in(3)) node["translation"] = numbers(3);
+        if (random.one_in(9)) node["skin"] = 0;
+        if (random.one_in(9))
+            node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+                {random.pick({"TRANSLATION", "ROTATION", "SCALE"}), random.below(d["accessors"].size())}};
+        if (random.one_in(2))
+            node["children"] = {random.one_in(9) ? random.below(12) : nodes.size() + random.between(1, 2)};
+        nodes.push_back(std::move(node));
+    }
+    if (random.one_in(2))
+        d.erase("scenes");
+    else
+        d["scenes"][0]["nodes"].push_back(random.between(first, nodes.size()));
+}
+
 std::string generate(dice& random)
 {
     const auto n = static_cast<std::uint32_t>(random.one_in(60) ? random.between(5, 40) : random.between(3, 4));
@@ -77,6 +111,7 @@ std::string generate(dice& random)
         else
             *member = random.pick({"SCALAR", "VEC2", "VEC3", "MAT2"});
     }
+    if (random.one_in(2)) add_nodes(d, random);
     if (random.one_in(24)) multiply(d, random);
     if (random.one_in(20)) // an accessor that is nowhere
         d["accessors"].push_back({{"componentType", 5126}, {"count", random.between(1, 70000)}, {"type", "VEC3"}});
@@ -92,6 +127,37 @@ std::vector<std::array<vec2, 3>> corner_uv(const io::gltf_model& model)
         for (std::size_t k = 0; k < 3; ++k)
             uv[t][k] = {static_cast<double>(t % 4), static_cast<double>(model.triangles[t][k])};
     return uv;
+}
+
+/// Nodes draw meshes that are there, or are refused; each of them can have a mesh of its own, which is read and
+/// written.
+void require_scenes(const io::gltf_model& model)
+{
+    try
+    {
+        const auto draws = io::impl::drawn_meshes(model.source);
+        for (const auto& draw : draws)
+            fuzz::require(draw.mesh < model.source.document["meshes"].size() && draw.instances > 0, "a mesh is drawn");
+        if (draws.size() > 20) return;
+        auto source = model.source;
+        io::impl::part_meshes(source, draws);
+        const auto parted = io::impl::model_of(std::move(source));
+        auto uv = corner_uv(parted);
+        for (std::size_t t = 0; t < uv.size(); ++t) uv[t][0].x = 100.0 + static_cast<double>(t);
+        auto [document, bytes] = io::impl::gltf_writer(parted, uv, 0, io::gltf_model::numbers::floats).write();
+        auto again = io::impl::gltf_source_of(io::impl::join_glb(document.dump(), bytes, {}, "again"), "again");
+        again.apart = true;
+        const auto back = io::impl::model_of(std::move(again));
+        fuzz::require(back.triangles == parted.triangles, "the same triangles apart");
+        for (std::size_t t = 0; t < uv.size(); ++t)
+            for (std::size_t k = 0; k < 3; ++k)
+                fuzz::require(back.texcoords[static_cast<std::size_t>(back.texcoord_cells[t][k])] ==
+                                  io::gltf_model::rounded(uv[t][k]),
+                              "the texture coordinates of each copy");
+    }
+    catch (const error&)
+    {
+    }
 }
 
 /// What is allocated for an input altogether, which says without a clock how much is done with it.
@@ -127,6 +193,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const auto& t : model.triangles)
             for (const idx v : t) fuzz::require(v >= 0 && v < n, "triangles name points");
         const auto uv = corner_uv(model);
+        require_scenes(model);
         auto [document, bytes] = io::impl::gltf_writer(model, uv, 0, io::gltf_model::numbers::floats).write();
         const auto again = io::impl::join_glb(document.dump(), bytes, {}, "again");
         try

@@ -135,7 +135,7 @@ def gltf_has_its_data_beside_it(t):
 def each_option_says_what_its_files_are(t):
     """The types of options that name no file are known, and each other one is an input, which a batch lists, or an output, whose
     folder has to be there."""
-    no_files = r"GROUP|PLANE|DEGREES|BYTES|FOLDER|i/N|[VRSNDTHBP]|PX|MS|0\.\.1|1\.2\.\.|1\.\.8|8\.\.8192|(?!FILE|OUT)[^|.]+(\|[^|]+)+"
+    no_files = r"GROUP|NAME|PLANE|DEGREES|BYTES|FOLDER|i/N|[VRSNDTHBP]|PX|MS|0\.\.1|1\.2\.\.|1\.\.8|8\.\.8192|(?!FILE|OUT)[^|.]+(\|[^|]+)+"
     required = {"unwrap": ["in.obj", "-o", "o.obj"], "atlas": ["in.obj", "-o", "o.obj"],
                 "bake": ["in.obj", "in.obj", "--texture", "in.obj", "-o", "o.png"], "untangle": ["in.mesh", "-o", "o.mesh"],
                 "deform": ["in.mesh", "-o", "o.mesh"], "smooth": ["in.mesh", "-o", "o.mesh"],

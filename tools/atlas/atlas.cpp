@@ -19,6 +19,7 @@
 #include <atlas/atlas_report.hpp>
 #include <atlas/atlas_source.hpp>
 #include <atlas/joined_surfaces.hpp>
+#include <atlas/part_densities.hpp>
 #include <atlas/pinned_faces.hpp>
 #include <atlas/seam_edges.hpp>
 #include <picture/render_picture.hpp>
@@ -138,7 +139,7 @@ private:
                 (options_.keep_charts() || options_.keep_seams || !options_.pinned.empty()))
                 throw unsuitable_input(s.texcoord_fault +
                                        "; correct it, or leave out --charts keep, --keep-seams and --keep-charts");
-            if (options_.inputs.size() > 1) require_valid(s.surface(), options_.inputs[i]);
+            if (options_.inputs.size() > 1 || s.is_placed()) require_valid(s.surface(), options_.inputs[i]);
         }
         joined_.emplace(join(sources_));
     }
@@ -161,7 +162,8 @@ private:
         const auto& m = joined_->surface;
         auto params = to_params(options_);
         const auto f = impl::facets(m);
-        const auto seams = seams_of(sources_, *joined_, f, options_);
+        params.packing.densities = densities_of(sources_, options_.inputs, options_.densities);
+        const auto seams = seams_of(sources_, *joined_, f, options_, params.packing.densities);
         params.charts.seams = seams;
         const auto weights = seam_weights_of(sources_, *joined_, f, options_);
         params.charts.weights = weights;
@@ -204,7 +206,7 @@ private:
         }
         report_.atlas = atlas_->report;
         report_.notes.insert(report_.notes.end(), atlas_->report.notes.begin(), atlas_->report.notes.end());
-        if (options_.max_stretch && atlas_->report.stretch_l2 > *options_.max_stretch)
+        if (options_.max_stretch && options_.densities.empty() && atlas_->report.stretch_l2 > *options_.max_stretch)
             report_.notes.push_back("the stretch is " + number(atlas_->report.stretch_l2, 4) +
                                     ", above --max-stretch; `--prefer packing` cuts further");
         if (!atlas_->report.complete) report_.code = interrupted() ? interruption() : exit_code::time_limit;
@@ -251,8 +253,8 @@ private:
         const corner_maps maps(*joined_, *atlas_);
         std::vector<io::file_to_write> files;
         if (options_.outputs.size() < sources_.size())
-            files.push_back({options_.outputs[0],
-                             [&](io::atomic_file& file) { write_joined(file, options_.inputs, *joined_, maps); }});
+            files.push_back({options_.outputs[0], [&](io::atomic_file& file)
+                             { write_joined(file, options_.inputs, sources_, *joined_, maps); }});
         else
             for (std::size_t i = 0; i < sources_.size(); ++i)
             {

@@ -6,9 +6,11 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include <taut/gltf.hpp>
 
+#include "atlas/part_densities.hpp"
 #include "shared/choices.hpp"
 #include "shared/failure.hpp"
 #include "shared/shared_options.hpp"
@@ -95,10 +97,23 @@ void declare_packing(const subcommand& app, atlas_options& o)
                    "Texels along a side of the square, or of a page wider or higher by a power of two")
         .type_name("N|WxH")
         .capture_default_str();
-    app.add_option("--texels-per-unit", o.texels_per_unit,
-                   "Texels per unit of length of the file, in as many tiles as needed; default as many as fit")
+    app.add_option(
+           "--texels-per-unit", o.texels_per_unit,
+           "Texels per unit of length of the file, of glTF of its scene, in as many tiles as needed; default as "
+           "many as fit")
         .type_name("T")
         .check(number_that([](double x) { return x > 0 && std::isfinite(x); }, "must be positive"));
+    add_choice<bool>(app, "--density-in", o.in_scene, {{"world", true}, {"file", false}},
+                     "Lengths of glTF as its nodes place the meshes, or as the meshes have them");
+    add_choice<bool>(app, "--instances", o.apart, {{"shared", false}, {"apart", true}},
+                     "Nodes of glTF that draw one mesh share its place, or have a copy of the mesh and a place each");
+    app.add_option("--density", o.densities,
+                   "Factor of the texel density of the mesh, node, material, object, group or, of several inputs, file "
+                   "of this name; once for each")
+        .type_name("NAME=FACTOR")
+        .one_value_each()
+        .check([](const std::string& text)
+               { return density_in(text) ? "" : "must be a name, = and a positive number, such as face=2"; });
     app.add_option("--max-resolution", o.max_resolution,
                    "With --texels-per-unit: double the resolution up to N until the charts fit into one tile, or those "
                    "of --udim")
@@ -243,6 +258,14 @@ void check(const atlas_options& o)
         throw usage_error("--keep-charts names faces of one surface; map the surfaces one at a time");
     const bool gltf = std::any_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
     const bool others = !std::all_of(o.inputs.begin(), o.inputs.end(), io::is_gltf);
+    std::set<std::string> named;
+    for (const auto& density : o.densities)
+        if (const auto name = density_in(density)->name; !named.insert(name).second)
+            throw usage_error("--density " + name + ": is given twice; give one factor");
+    if (o.apart && !gltf) throw usage_error("--instances needs glTF input, which has nodes; leave it out");
+    if (o.apart && o.stack)
+        throw usage_error("--stack lays copies on each other, and --instances lays them apart; leave out one of them");
+    if (!o.in_scene && !gltf) throw usage_error("--density-in needs glTF input, which has a scene; leave it out");
     if (o.texcoord_set > 0 && !gltf) throw usage_error("--texcoord-set needs glTF input; leave it out");
     if (o.read_texcoord_set && !gltf) throw usage_error("--read-texcoord-set needs glTF input; leave it out");
     if (o.read_texcoord_set && !o.keep_charts() && !o.keep_seams && o.pinned.empty())
@@ -272,6 +295,9 @@ void check(const atlas_options& o)
     }
     check_pages(o);
     const bool joined = o.outputs.size() < o.inputs.size();
+    if (joined && o.apart)
+        throw usage_error(
+            "--instances apart: one file of several surfaces has no nodes; give -o once for each surface");
     if (joined && io::is_gltf(o.outputs[0]))
         throw usage_error("-o " + o.outputs[0] +
                           ": several surfaces become one file as .obj; for glTF give -o once "
@@ -334,6 +360,9 @@ std::string as_command_line(const atlas_options& o)
         option("--padding", number(padding_of(o), 9));
     option("--resolution", o.size);
     if (o.texels_per_unit > 0) option("--texels-per-unit", number(o.texels_per_unit, 9));
+    if (o.apart) option("--instances", "apart");
+    if (!o.in_scene) option("--density-in", "file");
+    for (const auto& density : o.densities) option("--density", density);
     if (o.max_resolution > 0) option("--max-resolution", std::to_string(o.max_resolution));
     if (o.align > 1) option("--align", std::to_string(o.align));
     if (o.tiles) option("--udim", std::to_string(*o.tiles));
@@ -357,7 +386,9 @@ source_options to_source_options(const atlas_options& o)
             .weld = o.weld,
             .texcoord_set = o.texcoord_set,
             .read_texcoord_set = o.read_texcoord_set.value_or(o.texcoord_set),
-            .origin = origin_of(o)};
+            .origin = origin_of(o),
+            .apart = o.apart,
+            .in_scene = o.in_scene};
 }
 
 atlas_params to_params(const atlas_options& o)

@@ -27,6 +27,7 @@ enum class chart_use
 struct atlas_options
 {
     std::vector<std::string> inputs, outputs; ///< as many of these as of those
+    std::vector<std::string> densities;       ///< NAME=FACTOR
     std::string seams, seam_weights, pinned, stats, picture, render, report, device, progress;
     io::surface_format format{};
     chart_preference prefer = chart_preference::seams;
@@ -34,6 +35,8 @@ struct atlas_options
     bool repair = false, keep_seams = false, symmetric = false, upright = false, quiet = false;
     bool stack = false;         ///< copies of charts lie on each other
     bool by_material = false;   ///< a tile for each material
+    bool apart = false;         ///< source_options::apart
+    bool in_scene = true;       ///< source_options::in_scene
     std::optional<double> weld; ///< repairs, too
     std::optional<double> max_distortion, mean_distortion, max_stretch;
     std::optional<double> padding;

@@ -6,14 +6,15 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include <taut/impl/core/core/disjoint_sets.hpp>
 #include <taut/impl/core/mesh/describe.hpp>
-#include <taut/impl/files/gltf/gltf.hpp>
 #include <taut/impl/files/surface/obj_statements.hpp>
 #include <taut/impl/files/surface/surface_file_bodies.hpp>
 #include <taut/surface_file.hpp>
 
+#include "atlas/placed_points.hpp"
 #include "shared/failure.hpp"
 #include "shared/repair_report.hpp"
 #include "shared/reversed_fans.hpp"
@@ -40,6 +41,44 @@ std::vector<idx> face_materials(std::string_view text)
                 now = numbers.emplace(in.rest_of_line(), static_cast<idx>(numbers.size())).first->second;
         });
     return numbers.size() > 1 ? materials : std::vector<idx>();
+}
+
+/// Names that OBJ gives to the faces that follow.
+struct face_names
+{
+    std::string_view object, groups, material;
+
+    /// Calls f with each; several groups in a line are also one, as some write names with blanks.
+    template <class F>
+    void for_each(F f) const
+    {
+        for (const std::string_view name : {object, groups, material})
+            if (!name.empty()) f(name);
+        io::impl::scanner in(groups, {});
+        for (std::string_view word = in.word(); !word.empty(); word = in.word()) f(word);
+    }
+};
+
+/// Calls face(names, changed) for each face of OBJ text; changed: since the face before.
+template <class Face>
+void for_each_named_face(std::string_view text, Face face)
+{
+    face_names names;
+    bool changed = true;
+    io::impl::scanner in(text, {});
+    io::impl::for_each_statement(in,
+                                 [&](std::string_view key, const char*)
+                                 {
+                                     if (io::impl::is_face(key)) face(names, std::exchange(changed, false));
+                                     std::string_view* const name = key == "o"        ? &names.object
+                                                                    : key == "g"      ? &names.groups
+                                                                    : key == "usemtl" ? &names.material
+                                                                                      : nullptr;
+                                     if (!name) return;
+                                     *name = in.rest_of_line();
+                                     name->remove_suffix(name->size() - (name->find_last_not_of(" \t") + 1));
+                                     changed = true;
+                                 });
 }
 
 /// Returns whether triangles are one piece, by common corners.
@@ -88,6 +127,34 @@ public:
         if (materials.size() != file_.faces.sizes.size()) return {}; // none, or a face that is none
         auto result = faces();
         for (idx& face : result) face = materials[static_cast<std::size_t>(face)];
+        return result;
+    }
+
+    std::set<std::string> part_names() const override
+    {
+        std::set<std::string> result;
+        for_each_named_face(file_.obj.bytes,
+                            [&](const face_names& names, bool changed)
+                            {
+                                if (changed) names.for_each([&](std::string_view name) { result.emplace(name); });
+                            });
+        return result;
+    }
+
+    std::vector<char> triangles_of(const std::string& name) const override
+    {
+        std::vector<char> named; // of the faces
+        for_each_named_face(file_.obj.bytes,
+                            [&](const face_names& names, bool changed)
+                            {
+                                char is = changed ? 0 : named.back();
+                                if (changed) names.for_each([&](std::string_view own) { is = own == name ? 1 : is; });
+                                named.push_back(is);
+                            });
+        std::vector<char> result(surface().cells().size(), 0);
+        if (named.size() != file_.faces.sizes.size()) return result; // no OBJ, or a face that is none
+        const auto face = faces();
+        for (std::size_t c = 0; c < result.size(); ++c) result[c] = named[static_cast<std::size_t>(face[c])];
         return result;
     }
 
@@ -209,6 +276,11 @@ public:
             near_edges = describe_near_edges(model_.points, model_.triangles, bodies);
             take(mesh<triangle>(model_.points, model_.triangles));
         }
+        draws_ = io::impl::drawn_meshes(model_.source);
+        note_shared();
+        if (!options.in_scene) return;
+        auto points = placed_points(surface(), meshes(), draws_, notes);
+        if (points != surface().points()) place(std::move(points));
     }
 
     std::vector<idx> parts() const override
@@ -225,7 +297,80 @@ public:
         return gltf_files(path, model_, map, set_, numbers, changes);
     }
 
+    std::set<std::string> part_names() const override
+    {
+        std::set<std::string> result;
+        for (const auto* const numbers : {&model_.meshes, &model_.materials})
+            for (const idx i : std::set<idx>(numbers->begin(), numbers->end()))
+                result.merge(numbers == &model_.meshes ? names_of_mesh(i) : names_of_item("materials", i));
+        return result;
+    }
+
+    std::vector<char> triangles_of(const std::string& name) const override
+    {
+        std::map<idx, char> of_mesh, of_material;
+        for (const idx m : model_.meshes) of_mesh.try_emplace(m, 0);
+        for (const idx m : model_.materials) of_material.try_emplace(m, 0);
+        for (auto& [m, is] : of_mesh) is = names_of_mesh(m).contains(name) ? 1 : 0;
+        for (auto& [m, is] : of_material) is = names_of_item("materials", m).contains(name) ? 1 : 0;
+        std::vector<char> result(surface().cells().size());
+        for (std::size_t c = 0; c < result.size(); ++c)
+        {
+            const std::size_t cell = origin(c, 0).first;
+            result[c] = of_mesh[model_.meshes[cell]] != 0 || of_material[model_.materials[cell]] != 0 ? 1 : 0;
+        }
+        return result;
+    }
+
 private:
+    /// Says which meshes have one place for what is drawn several times.
+    void note_shared()
+    {
+        std::map<std::size_t, std::size_t> times;
+        for (const auto& draw : draws_) times[draw.mesh] += draw.instances;
+        std::size_t meshes = 0, all = 0;
+        for (const auto& [m, n] : times)
+            if (n > 1)
+            {
+                ++meshes;
+                all += n;
+            }
+        if (meshes > 0)
+            notes.push_back(taut::impl::counted(meshes, "mesh is", "meshes are") + " drawn by several nodes, " +
+                            std::to_string(all) +
+                            " times in all, which share places in the atlas; for light maps --instances apart gives "
+                            "each its own");
+    }
+
+    /// The name of an item of a list of the document, if it has one.
+    std::set<std::string> names_of_item(const char* list, idx i) const
+    {
+        if (i < 0 || !model_.source.document.contains(list)) return {};
+        const auto& items = model_.source.document[list];
+        const auto number = static_cast<std::size_t>(i);
+        const auto* const name = number < items.size() ? io::impl::find_in(items[number], {"name"}) : nullptr;
+        if (!name || !name->is_string() || name->get_ref<const std::string&>().empty()) return {};
+        return {name->get<std::string>()};
+    }
+
+    /// That of a mesh, and those of the nodes that draw it.
+    std::set<std::string> names_of_mesh(idx i) const
+    {
+        auto result = names_of_item("meshes", i);
+        for (const auto& draw : draws_)
+            if (draw.mesh == static_cast<std::size_t>(i))
+                result.merge(names_of_item("nodes", static_cast<idx>(draw.node)));
+        return result;
+    }
+
+    /// The mesh that each triangle of the surface is of.
+    std::vector<idx> meshes() const
+    {
+        std::vector<idx> result(surface().cells().size());
+        for (std::size_t c = 0; c < result.size(); ++c) result[c] = model_.meshes[origin(c, 0).first];
+        return result;
+    }
+
     /// The mesh that each point is of.
     std::vector<idx> point_meshes() const
     {
@@ -243,8 +388,30 @@ private:
     }
 
     io::gltf_model model_;
+    std::vector<io::impl::gltf_draw> draws_;
     int set_;
 };
+
+/// The model with a mesh for each node that draws one.
+io::gltf_model parted(io::gltf_model model, const source_options& options)
+{
+    auto& source = model.source;
+    const auto draws = io::impl::drawn_meshes(source);
+    for (const auto& draw : draws)
+        if (draw.instances > 1)
+            throw unsuitable_input(source.path + ": node " + std::to_string(draw.node) + " draws mesh " +
+                                   std::to_string(draw.mesh) + ' ' + std::to_string(draw.instances) +
+                                   " times by EXT_mesh_gpu_instancing, which has one set of texture coordinates for "
+                                   "all; write a node for each instance, or leave out --instances apart");
+    const std::size_t before = source.document["meshes"].size();
+    io::impl::part_meshes(source, draws);
+    const std::size_t more = source.document["meshes"].size() - before;
+    model = io::impl::model_of(std::move(source), options.read_texcoord_set);
+    if (more > 0)
+        model.notes.push_back(taut::impl::counted(more, "mesh was", "meshes were") +
+                              " added, so that each node draws its own");
+    return model;
+}
 
 } // namespace
 
@@ -314,7 +481,11 @@ void atlas_source::note_mirrored(std::vector<std::string>& changes) const
 std::unique_ptr<atlas_source> open_atlas_source(const std::string& path, const source_options& options)
 {
     if (io::is_gltf(path))
-        return std::make_unique<gltf_source>(io::read_gltf(path, options.read_texcoord_set), options);
+    {
+        auto model = io::read_gltf(path, options.read_texcoord_set);
+        return std::make_unique<gltf_source>(options.apart ? parted(std::move(model), options) : std::move(model),
+                                             options);
+    }
     return std::make_unique<surface_source>(io::read_surface_soup(path, options.format), options);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -35,6 +36,10 @@ public:
     /// Surface to be mapped: the triangles of the file, or the repaired ones.
     const mesh<triangle>& surface() const { return repaired_ ? repaired_->surface : *whole_; }
 
+    /// The points of the surface in the scene that the file is of, by whose lengths it is mapped.
+    const std::vector<vec3>& points_in_scene() const { return placed_.empty() ? surface().points() : placed_; }
+    bool is_placed() const { return !placed_.empty(); }
+
     /// The vertex of the file that a vertex of the surface is.
     idx vertex_origin(idx v) const { return repaired_ ? repaired_->vertex_origins[static_cast<std::size_t>(v)] : v; }
 
@@ -58,6 +63,12 @@ public:
 
     /// A label a triangle where the file parts the surface, as by materials; or empty.
     virtual std::vector<idx> parts() const { return {}; }
+
+    /// Names of meshes, nodes, materials, objects and groups of the file that have triangles in it.
+    virtual std::set<std::string> part_names() const { return {}; }
+
+    /// One flag per triangle of the surface: whether a part of this name has it.
+    virtual std::vector<char> triangles_of(const std::string& name) const = 0;
 
     /// The number of the polygon that each triangle is of; or empty, if all faces are triangles.
     virtual std::vector<idx> polygons() const { return {}; }
@@ -90,6 +101,7 @@ protected:
 
     void take(mesh<triangle> whole) { whole_.emplace(std::move(whole)); }
     void take(repaired_surface repaired) { repaired_.emplace(std::move(repaired)); }
+    void place(std::vector<vec3> points) { placed_ = std::move(points); }
 
     /// The triangle of the file and the corner of it that are corner k of triangle c of the surface.
     std::pair<std::size_t, std::size_t> origin(std::size_t c, std::size_t k) const
@@ -113,6 +125,7 @@ private:
     vec2 origin_;
     std::optional<mesh<triangle>> whole_;      // of the file as it is,
     std::optional<repaired_surface> repaired_; // or this
+    std::vector<vec3> placed_;                 // of it; none: as they are
 };
 
 struct source_options
@@ -123,6 +136,8 @@ struct source_options
     int texcoord_set = 0;       ///< of glTF: the set that is written,
     int read_texcoord_set = 0;  ///< and the one that is read
     vec2 origin = vec2(0.0);    ///< atlas_params::origin
+    bool apart = false;         ///< each node of glTF that draws a mesh has one of its own
+    bool in_scene = true;       ///< lengths of glTF are those of its scenes, not of its meshes
 };
 
 /// Throws io_error, mesh_error; repair_error if no triangle is left.

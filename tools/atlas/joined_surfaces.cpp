@@ -18,7 +18,8 @@ joined_surfaces join(const std::vector<std::unique_ptr<atlas_source>>& sources)
     for (const auto& source : sources)
     {
         const auto& m = source->surface();
-        points.insert(points.end(), m.points().begin(), m.points().end());
+        const auto& placed = source->points_in_scene();
+        points.insert(points.end(), placed.begin(), placed.end());
         for (auto t : m.cells())
         {
             for (idx& v : t) v += first_vertex.back();
@@ -80,19 +81,18 @@ corner_map corner_maps::of(std::size_t file) const
     return {parts_[file].uv, parts_[file].cells};
 }
 
-void write_joined(io::atomic_file& out, std::span<const std::string> names, const joined_surfaces& joined,
+void write_joined(io::atomic_file& out, std::span<const std::string> names,
+                  const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
                   const corner_maps& maps)
 {
     idx first_texcoord = 0;
     for (std::size_t i = 0; i < names.size(); ++i)
     {
         out.write("o " + std::filesystem::path(names[i]).stem().string() + '\n');
-        const auto first = static_cast<std::size_t>(joined.first_vertex[i]);
-        io::impl::write_items(out, static_cast<std::size_t>(joined.first_vertex[i + 1]) - first,
-                              [&](std::string& text, std::size_t v)
-                              {
-                                  const vec3& p = joined.surface.points()[first + v];
-                                  io::impl::append_line(text, "v", {p.x, p.y, p.z});
+        const auto& points = sources[i]->surface().points();
+        io::impl::write_items(out, points.size(),
+                              [&](std::string& text, std::size_t v) {
+                                  io::impl::append_line(text, "v", {points[v].x, points[v].y, points[v].z});
                               });
         const corner_map map = maps.of(i);
         io::impl::write_texcoords(out, map.uv);

@@ -16,7 +16,7 @@
 namespace taut::tools
 {
 
-/// Surfaces of several files as one.
+/// Surfaces of several files as one, with points as they are placed.
 struct joined_surfaces
 {
     mesh<triangle> surface;
@@ -46,8 +46,9 @@ private:
     std::vector<part> parts_;
 };
 
-/// All surfaces as triangles of one OBJ, an object each, which is named as its file.
-void write_joined(io::atomic_file& out, std::span<const std::string> names, const joined_surfaces& joined,
+/// All surfaces as triangles of one OBJ, an object each, which is named as its file; points are as in the files.
+void write_joined(io::atomic_file& out, std::span<const std::string> names,
+                  const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
                   const corner_maps& maps);
 
 } // namespace taut::tools

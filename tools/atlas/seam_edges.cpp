@@ -58,21 +58,34 @@ void mark_texcoords(std::vector<char>& seam, const mesh<triangle>& m, const impl
     for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || torn[s] != 0;
 }
 
+/// A number for each density.
+std::vector<idx> labels_of(std::span<const double> densities)
+{
+    std::map<double, idx> number;
+    std::vector<idx> result;
+    for (const double d : densities) result.push_back(number.emplace(d, static_cast<idx>(number.size())).first->second);
+    return result;
+}
+
 } // namespace
 
 std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
-                           const impl::facet_table& f, const atlas_options& options)
+                           const impl::facet_table& f, const atlas_options& options, std::span<const double> densities)
 {
-    if (options.seams.empty() && !options.keep_charts() && !options.keep_seams && !options.by_material) return {};
+    if (options.seams.empty() && !options.keep_charts() && !options.keep_seams && !options.by_material &&
+        densities.empty())
+        return {};
     std::vector<char> seam(f.twin.size(), 0);
     if (!options.seams.empty())
         mark_edges(seam, parse_edges(io::impl::read_file(options.seams), options.seams, sources[0]->file_vertices),
                    *sources[0], options.seams);
-    if (options.by_material)
+    const auto part = [&](const std::vector<idx>& label)
     {
-        const auto borders = impl::seams_between(f, tiles_by_material(*sources[0]));
+        const auto borders = impl::seams_between(f, label);
         for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
-    }
+    };
+    if (options.by_material) part(tiles_by_material(*sources[0]));
+    if (!densities.empty()) part(labels_of(densities));
     if (options.keep_charts()) mark_texcoords(seam, joined.surface, f, texcoords_of(sources));
     if (!options.keep_seams) return seam;
 
@@ -93,8 +106,7 @@ std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sou
     if (!any)
         throw unsuitable_input("--keep-seams: the file has neither texture coordinates nor materials; leave it out");
     mark_texcoords(seam, joined.surface, f, uv);
-    const auto borders = impl::seams_between(f, label);
-    for (std::size_t s = 0; s < seam.size(); ++s) seam[s] = seam[s] != 0 || borders[s] != 0;
+    part(label);
     return seam;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,9 +14,9 @@ namespace taut::tools
 {
 
 /// The seams that the options ask for, one flag a side of the joined surface, whose facets are `f`; empty if there are
-/// none. Throws io_error, unsuitable_input.
+/// none. densities: of its triangles, or none; seams part those that differ. Throws io_error, unsuitable_input.
 std::vector<char> seams_of(const std::vector<std::unique_ptr<atlas_source>>& sources, const joined_surfaces& joined,
-                           const impl::facet_table& f, const atlas_options& options);
+                           const impl::facet_table& f, const atlas_options& options, std::span<const double> densities);
 
 /// Factors of what seams cost along each side: those of the file of weights, and less between materials where there is
 /// an angle of creases; empty if there are none. Throws io_error, unsuitable_input.

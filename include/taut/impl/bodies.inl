@@ -229,5 +229,6 @@
 #ifdef TAUT_PART_GLTF
 #include <taut/impl/files/gltf/images.ipp>
 #include <taut/impl/files/gltf/read_gltf.ipp>
+#include <taut/impl/files/gltf/scene.ipp>
 #include <taut/impl/files/gltf/write_gltf.ipp>
 #endif

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -244,6 +245,19 @@ inline std::vector<vec2> in_rows_of_tiles(const packing& layout, std::span<const
     return placed;
 }
 
+/// A label per chart, which those that may lie on each other have in common: they are of one tile and one density.
+inline std::vector<idx> stack_labels(const std::vector<idx>& groups, const std::vector<double>& densities)
+{
+    if (densities.empty()) return groups;
+    std::map<std::pair<idx, double>, idx> numbers;
+    std::vector<idx> labels;
+    for (std::size_t k = 0; k < densities.size(); ++k)
+        labels.push_back(
+            numbers.emplace(std::pair(groups.empty() ? 0 : groups[k], densities[k]), static_cast<idx>(numbers.size()))
+                .first->second);
+    return labels;
+}
+
 /// Packs charts into the tiles, rounded as in the file.
 /// grown: how much larger the chart of each triangle of the surface is laid; empty if none is
 inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& set, const std::vector<double>& grown)
@@ -261,6 +275,7 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     auto params = of.params.packing;
     params.groups = by_chart(charts, params.groups);
     params.densities = by_chart(charts, params.densities);
+    const auto labels = stack_labels(params.groups, params.densities);
     const auto factors = by_chart(charts, grown);
     if (params.densities.empty())
         params.densities = factors;
@@ -269,7 +284,7 @@ inline placed_charts place(atlas_run& run, const atlas_surface& of, chart_set& s
     auto& stacks = made.stacks;
     if (of.params.stack)
     {
-        stacks.emplace(charts, by_charts(charts, of.params.charts.together), params.groups);
+        stacks.emplace(charts, by_charts(charts, of.params.charts.together), labels);
         stacks->take_best(set.uv, set.energy);
         stacks->leave_unlike(set.uv, of.params.charts.max_distortion);
         stacks->share(set.uv);

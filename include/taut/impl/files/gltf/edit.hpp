@@ -57,13 +57,14 @@ inline std::vector<std::size_t> other_uses(const gltf_source& source)
 class gltf_edit
 {
 public:
-    explicit gltf_edit(const gltf_source& source)
+    /// times: more new bytes than usual
+    explicit gltf_edit(const gltf_source& source, std::size_t times = 1)
         : source_(source),
           document_(source.document),
           old_views_(root_of(source).items("bufferViews").size()),
           uses_(other_uses(source)),
           named_before_(views_named()),
-          made_(source, 64)
+          made_(source, 64 * times)
     {
     }
 

@@ -12,6 +12,7 @@
 
 #include <taut/files.hpp>
 #include <taut/gltf.hpp>
+#include <taut/impl/files/gltf/scene.hpp>
 #include <taut/impl/files/gltf/source.hpp>
 #include <taut/types.hpp>
 
@@ -20,6 +21,9 @@ namespace taut::io::impl
 
 /// The same from memory; path: named in errors, and where external buffers are looked for.
 gltf_model parse_gltf(std::string_view bytes, const std::string& path = "glTF file", int texcoord_set = 0);
+
+/// The same of a file that is read, or was changed since.
+gltf_model model_of(gltf_source source, int texcoord_set = 0);
 
 /// The files that hold the buffers of the document at a path; none of a .glb, or where they cannot be told.
 std::set<std::filesystem::path> gltf_companions(const std::filesystem::path& path);

@@ -39,7 +39,9 @@ struct gltf_primitive
     std::size_t pool = 0;                    ///< among the pools of the document
     std::size_t first = 0;                   ///< its first triangle among all
     std::size_t count = 0;                   ///< of its triangles; 0 for points, lines and copies
-    std::optional<std::size_t> copy_of = {}; ///< an earlier primitive with the same triangles
+    std::optional<std::size_t> copy_of = {}; ///< an earlier primitive with the same triangles and texture coordinates
+    std::optional<std::size_t> twin_of = {}; ///< the first one with the same triangles, which it has anew,
+    std::size_t layer = 0;                   ///< and its number among those
 
     enum : std::size_t
     {
@@ -65,6 +67,13 @@ struct gltf_primitives
     std::vector<gltf_primitive> all;
     std::vector<std::size_t> first_vertex; ///< of each pool, in the numbering of all; #pools + 1
     std::size_t triangles = 0;
+
+    /// The primitive whose triangles another one draws, be it a copy or a twin.
+    const gltf_primitive& drawn_by(const gltf_primitive& p) const
+    {
+        const gltf_primitive& own = p.copy_of ? all[*p.copy_of] : p;
+        return own.twin_of ? all[*own.twin_of] : own;
+    }
 
     std::size_t vertices_of(std::size_t pool) const { return first_vertex[pool + 1] - first_vertex[pool]; }
 };
@@ -163,7 +172,7 @@ inline gltf_primitives primitives_of(const gltf_source& source)
     make_pools(source, result);
 
     using key = std::tuple<std::size_t, std::size_t, std::size_t>;
-    std::map<key, std::size_t> known; // by positions, indices and mode
+    std::map<key, std::vector<std::size_t>> known; // twins, by positions, indices and mode
     constexpr std::size_t limit = std::numeric_limits<idx>::max();
     gltf_allowance corners(source, 4); // strips have three an index, which may be a byte
     for (std::size_t i = 0; i < result.all.size(); ++i)
@@ -172,15 +181,26 @@ inline gltf_primitives primitives_of(const gltf_source& source)
         const std::size_t* const position = p.attribute("POSITION");
         const bool is_mapped = p.has_triangles() && position;
         if (is_mapped)
-            if (const auto [same, is_new] = known.emplace(key{*position, p.indices.value_or(SIZE_MAX), p.mode}, i);
-                !is_new)
-                p.copy_of = same->second;
+        {
+            auto& same = known[key{*position, p.indices.value_or(SIZE_MAX), p.mode}];
+            if (!same.empty() && (!source.apart || result.all[same.back()].mesh == p.mesh))
+            {
+                p.copy_of = same.back();
+                p.layer = same.size() - 1;
+            }
+            else
+            {
+                if (!same.empty()) p.twin_of = same.front();
+                p.layer = same.size();
+                same.push_back(i);
+            }
+        }
         p.first = result.triangles;
         if (p.copy_of) continue;
-        corners.take(p.drawn, "corners");
+        if (!p.twin_of) corners.take(p.drawn, "corners"); // twins are asked for
         if (!is_mapped) continue;
         p.count = p.mode == gltf_primitive::triangles ? p.drawn / 3 : p.drawn < 3 ? 0 : p.drawn - 2;
-        if (p.mode != gltf_primitive::triangles) corners.take(2 * p.count, "corners");
+        if (p.mode != gltf_primitive::triangles && !p.twin_of) corners.take(2 * p.count, "corners");
         result.triangles += p.count;
         if (result.triangles > limit / 3) break;
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -37,7 +38,7 @@ public:
         for (const gltf_primitive& p : primitives.all)
         {
             if (std::exchange(mesh, p.mesh) != p.mesh) welded_ = {};
-            count(p);
+            count(p, primitives);
             if (p.count > 0) add(p, primitives.first_vertex[p.pool]);
         }
         if (model_.triangles.empty())
@@ -124,10 +125,15 @@ private:
         return at->second;
     }
 
-    void count(const gltf_primitive& p)
+    void count(const gltf_primitive& p, const gltf_primitives& primitives)
     {
+        const auto number = [&](const gltf_primitive& of)
+        {
+            const std::size_t* const accessor = of.attribute(set_);
+            return accessor ? *accessor : SIZE_MAX;
+        };
         if (p.copy_of)
-            ++copies_;
+            ++(number(p) == number(primitives.all[*p.copy_of]) ? copies_ : unread_);
         else if (!p.has_triangles() || !p.attribute("POSITION"))
             ++others_;
         else if (p.mode != gltf_primitive::triangles)
@@ -150,6 +156,9 @@ private:
              " primitives without triangles were left as they are");
         note(copies_, " primitive draws the triangles of another one and shares their map",
              " primitives draw the triangles of others and share their maps");
+        note(unread_,
+             " primitive draws the triangles of another one with other texture coordinates, which are not read",
+             " primitives draw the triangles of others with other texture coordinates, which are not read");
         note(incomplete_, " primitive has indices that are left over", " primitives have indices that are left over");
     }
 
@@ -159,7 +168,7 @@ private:
     std::map<std::size_t, idx> first_texcoord_;    // of accessors
     point_numbers welded_;                         // points of the mesh
     gltf_allowance allowance_;                     // of elements
-    std::size_t corners_ = 0, strips_ = 0, others_ = 0, copies_ = 0, incomplete_ = 0;
+    std::size_t corners_ = 0, strips_ = 0, others_ = 0, copies_ = 0, unread_ = 0, incomplete_ = 0;
 };
 
 } // namespace taut::io::impl
@@ -181,8 +190,13 @@ namespace taut::io::impl
 
 gltf_model parse_gltf(std::string_view bytes, const std::string& path, int texcoord_set)
 {
+    return model_of(impl::gltf_source_of(bytes, path), texcoord_set);
+}
+
+gltf_model model_of(gltf_source source, int texcoord_set)
+{
     gltf_model model{};
-    model.source = impl::gltf_source_of(bytes, path);
+    model.source = std::move(source);
     impl::gltf_reader(model, "TEXCOORD_" + std::to_string(texcoord_set)).read();
     return model;
 }

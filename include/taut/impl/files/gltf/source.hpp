@@ -27,6 +27,7 @@ struct gltf_source
     std::vector<std::string> more_chunks = {};  ///< of GLB behind JSON and BIN, with their heads
     bool data_uris = false;                     ///< whether all buffers are data URIs
     std::set<std::filesystem::path> files = {}; ///< that buffers were read from
+    bool apart = false;                         ///< meshes that share triangles have their own texture coordinates
 };
 
 /// An object of a document, and what messages call it.

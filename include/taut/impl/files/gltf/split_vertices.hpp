@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,13 +22,16 @@ namespace taut::io::impl
 /// As a file holds it.
 using gltf_texcoord = std::array<double, 2>;
 
-/// A vertex for each texture coordinate that the corners at a vertex of glTF have.
+/// A vertex for each texture coordinate that the corners at a vertex of glTF have; twins, which share vertices, have
+/// one each.
 struct gltf_split
 {
     struct pool
     {
-        std::vector<gltf_texcoord> uv;      ///< of all vertices, old and new ones
-        std::vector<std::uint32_t> origins; ///< the old vertex of each new one
+        std::vector<std::vector<gltf_texcoord>> uv; ///< of each layer of twins: of all vertices, old and new ones
+        std::vector<std::uint32_t> origins;         ///< the old vertex of each new one
+
+        std::size_t vertices() const { return uv[0].size(); }
     };
     std::vector<pool> pools;
     std::vector<std::array<std::uint32_t, 3>> corners; ///< the vertex in its pool at each corner of the triangles
@@ -37,25 +41,27 @@ struct gltf_split
 class gltf_vertices
 {
 public:
-    explicit gltf_vertices(std::size_t count) : pool_{std::vector<gltf_texcoord>(count), {}}, used_(count, 0) {}
-
-    /// The vertex with the attributes of an old one and this texture coordinate.
-    std::uint32_t with(std::uint32_t old, const gltf_texcoord& x)
+    gltf_vertices(std::size_t count, std::size_t layers)
+        : count_(count),
+          pool_{std::vector(layers, std::vector<gltf_texcoord>(count)), {}},
+          used_(layers, std::vector<char>(count, 0))
     {
-        if (used_[old] != 0 && bits(pool_.uv[old]) != bits(x))
+    }
+
+    /// The vertex that has what v has, which the layers before this one gave, and this texture coordinate.
+    std::uint32_t with(std::uint32_t v, std::size_t layer, const gltf_texcoord& x)
+    {
+        gltf_texcoord& own = pool_.uv[layer][v];
+        if (used_[layer][v] != 0 && bits(own) != bits(x))
         {
             const auto [at, is_new] =
-                more_.emplace(std::pair(old, bits(x)), static_cast<std::uint32_t>(pool_.uv.size()));
-            if (is_new)
-            {
-                pool_.origins.push_back(old);
-                pool_.uv.push_back(x);
-            }
+                more_.emplace(std::tuple(v, layer, bits(x)), static_cast<std::uint32_t>(pool_.vertices()));
+            if (is_new) add(v, layer, x);
             return at->second;
         }
-        pool_.uv[old] = x;
-        used_[old] = 1;
-        return old;
+        own = x;
+        used_[layer][v] = 1;
+        return v;
     }
 
     gltf_split::pool take() && { return std::move(pool_); }
@@ -64,9 +70,21 @@ private:
     using key = std::array<std::uint64_t, 2>;
     static key bits(const gltf_texcoord& x) { return std::bit_cast<key>(x); }
 
+    void add(std::uint32_t v, std::size_t layer, const gltf_texcoord& x)
+    {
+        pool_.origins.push_back(v < count_ ? v : pool_.origins[v - count_]);
+        for (std::size_t l = 0; l < used_.size(); ++l)
+        {
+            const gltf_texcoord before = pool_.uv[l][v];
+            pool_.uv[l].push_back(l < layer ? before : x);
+            used_[l].push_back(l <= layer ? 1 : 0);
+        }
+    }
+
+    std::size_t count_; // of old vertices
     gltf_split::pool pool_;
-    std::vector<char> used_;
-    std::map<std::pair<std::uint32_t, key>, std::uint32_t> more_; // than the first of each old one
+    std::vector<std::vector<char>> used_;                                       // of each layer
+    std::map<std::tuple<std::uint32_t, std::size_t, key>, std::uint32_t> more_; // than the first of each
 };
 
 /// vertices:  of glTF, at each corner of the triangles; new ones are numbered in the order of the triangles
@@ -77,20 +95,34 @@ inline gltf_split split_vertices(const gltf_primitives& primitives, std::span<co
 {
     gltf_split result;
     result.corners.resize(vertices.size());
+    std::vector<std::size_t> layers(primitives.first_vertex.size() - 1, 1);
+    std::map<const gltf_primitive*, std::vector<std::size_t>> firsts; // triangles of twins
+    for (const gltf_primitive& p : primitives.all)
+    {
+        layers[p.pool] = std::max(layers[p.pool], p.layer + 1);
+        if (!p.copy_of) firsts[&primitives.drawn_by(p)].push_back(p.first);
+    }
     std::vector<gltf_vertices> pools;
-    for (std::size_t p = 0; p + 1 < primitives.first_vertex.size(); ++p) pools.emplace_back(primitives.vertices_of(p));
+    for (std::size_t p = 0; p < layers.size(); ++p) pools.emplace_back(primitives.vertices_of(p), layers[p]);
     const auto is_finite = [](const gltf_texcoord& x) { return std::isfinite(x[0]) && std::isfinite(x[1]); };
     for (const gltf_primitive& p : primitives.all)
-        for (std::size_t c = p.first; c < p.first + p.count; ++c)
-        {
-            const bool placed = std::all_of(corner_uv[c].begin(), corner_uv[c].end(), is_finite);
+    {
+        if (p.twin_of || p.count == 0) continue;
+        const auto& twins = firsts[&p];
+        for (std::size_t t = 0; t < p.count; ++t)
             for (std::size_t k = 0; k < 3; ++k)
             {
-                const auto old = static_cast<std::uint32_t>(static_cast<std::size_t>(vertices[c][k]) -
-                                                            primitives.first_vertex[p.pool]);
-                result.corners[c][k] = pools[p.pool].with(old, placed ? corner_uv[c][k] : gltf_texcoord{0, 0});
+                auto v = static_cast<std::uint32_t>(static_cast<std::size_t>(vertices[p.first + t][k]) -
+                                                    primitives.first_vertex[p.pool]);
+                for (std::size_t l = 0; l < layers[p.pool]; ++l) // the first one stands for those that are not there
+                {
+                    const auto& uv = corner_uv[(l < twins.size() ? twins[l] : p.first) + t];
+                    const bool placed = std::all_of(uv.begin(), uv.end(), is_finite);
+                    v = pools[p.pool].with(v, l, placed ? uv[k] : gltf_texcoord{0, 0});
+                }
+                result.corners[p.first + t][k] = v;
             }
-        }
+    }
     for (gltf_vertices& pool : pools) result.pools.push_back(std::move(pool).take());
     return result;
 }

@@ -38,7 +38,7 @@ public:
                 gltf_model::numbers numbers)
         : source_(model.source),
           primitives_(primitives_of(model.source)),
-          edit_(model.source),
+          edit_(model.source, layers()),
           set_("TEXCOORD_" + std::to_string(set)),
           type_(numbers == gltf_model::numbers::floats ? gltf_f32 : gltf_u16)
     {
@@ -80,6 +80,13 @@ public:
     }
 
 private:
+    std::size_t layers() const
+    {
+        std::size_t most = 0;
+        for (const gltf_primitive& p : primitives_.all) most = std::max(most, p.layer);
+        return most + 1;
+    }
+
     static bool is_mapped(const gltf_primitive& p) { return p.has_triangles() && p.attribute("POSITION"); }
 
     void require_sets_before(const gltf_primitive& p, int set) const
@@ -94,14 +101,14 @@ private:
 
     void write_attributes(const std::vector<gltf_primitive*>& members, const gltf_split::pool& pool)
     {
-        std::vector<std::size_t*> mapped;
-        std::map<std::size_t, std::vector<std::size_t*>> others; // by accessor
+        std::vector<std::vector<std::size_t*>> mapped(pool.uv.size()); // by layer
+        std::map<std::size_t, std::vector<std::size_t*>> others;       // by accessor
         for (gltf_primitive* const p : members)
         {
             if (is_mapped(*p) && !p->attribute(set_)) p->attributes.emplace_back(set_, gltf_edit::nothing);
             for (auto& [key, accessor] : p->attributes)
                 if (is_mapped(*p) && key == set_)
-                    mapped.push_back(&accessor);
+                    mapped[p->layer].push_back(&accessor);
                 else
                     others[accessor].push_back(&accessor);
             for (gltf_attributes& target : p->targets)
@@ -110,10 +117,14 @@ private:
         if (!pool.origins.empty())
             for (const auto& [accessor, refs] : others)
                 edit_.put(refs, grown_accessor(edit_, source_, accessor, pool.origins));
-        const bool one = std::all_of(mapped.begin(), mapped.end(), [&](auto* ref) { return *ref == *mapped[0]; });
-        const std::size_t old = one ? *mapped[0] : gltf_edit::nothing;
-        for (std::size_t* const ref : mapped) *ref = old;
-        edit_.put(mapped, texcoord_accessor(edit_, source_, old, pool.uv, type_));
+        for (std::size_t layer = 0; layer < mapped.size(); ++layer)
+        {
+            const auto& refs = mapped[layer];
+            const bool one = std::all_of(refs.begin(), refs.end(), [&](auto* ref) { return *ref == *refs[0]; });
+            const std::size_t old = one ? *refs[0] : gltf_edit::nothing;
+            for (std::size_t* const ref : refs) *ref = old;
+            edit_.put(refs, texcoord_accessor(edit_, source_, old, pool.uv[layer], type_));
+        }
     }
 
     /// Primitives draw the new vertices at corners that have them, and none that they did not draw.
@@ -121,10 +132,10 @@ private:
     {
         const bool grown = !pool.origins.empty();
         std::map<const gltf_primitive*, std::vector<gltf_primitive*>> copies;
-        for (gltf_primitive* const p : members) copies[p->copy_of ? &primitives_.all[*p->copy_of] : p].push_back(p);
+        for (gltf_primitive* const p : members) copies[&primitives_.drawn_by(*p)].push_back(p);
         for (gltf_primitive* const p : members)
         {
-            if (p->copy_of || !(p->indices ? moved(*p) : grown)) continue;
+            if (p->copy_of || p->twin_of || !(p->indices ? moved(*p) : grown)) continue;
             std::vector<std::uint32_t> drawn = p->count > 0 ? triangles(*p) : drawn_vertices(source_, *p);
             const std::size_t old = p->indices.value_or(gltf_edit::nothing);
             std::vector<std::size_t*> refs;
@@ -134,7 +145,7 @@ private:
                 if (same->count > 0 || same->copy_of) same->mode = gltf_primitive::triangles;
                 refs.push_back(&*same->indices);
             }
-            edit_.put(refs, index_accessor(edit_, source_, old, drawn, pool.uv.size() - 1));
+            edit_.put(refs, index_accessor(edit_, source_, old, drawn, pool.vertices() - 1));
         }
     }
 
