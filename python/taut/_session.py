@@ -73,7 +73,8 @@ class Session:
     ) -> None:
         shape = _arrays.shape(C)
         corners = shape[1] if len(shape) == 2 else 0
-        kind = kind or ("volume" if corners == 4 else "map")
+        if kind is None:
+            kind = "volume" if corners == 4 else "map"
         if not isinstance(kind, str) or kind not in _KINDS:
             raise ParameterError(f"kind: is {kind!r}, but must be one of {', '.join(_KINDS)}", field="kind")
         name, self.dim = _KINDS[kind]

@@ -196,8 +196,9 @@ def write_dxf(path: Any, made: list[Piece], *, gap: float = 20.0, notch: float =
     if wrong:
         raise ParameterError(f"made: has a {type(wrong[0]).__name__}, but must be a list of pieces, as patterns.pieces() "
                              "returns it", field="made")
+    gap, notch = _arrays.number("gap", gap), _arrays.number("notch", notch)
     for name, value in (("gap", gap), ("notch", notch)):
-        if not 0 <= _arrays.number(name, value) < np.inf:
+        if not 0 <= value < np.inf:
             raise ParameterError(f"{name}: is {value}, but must not be negative", field=name)
     import ezdxf
 

@@ -42,6 +42,7 @@ TETRAHEDRON = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]], [[0, 1, 2, 3]]
         (lambda: taut.Session(V, F).pin_u(0, "x"), "u", ["'x'"]),
         (lambda: taut.Session(V, F).spring(0, [0, 0], None), "weight", ["None"]),
         (lambda: taut.Session(V, F).restore(3), "snapshot", ["3"]),
+        (lambda: taut.Session(V, F, kind=np.zeros(2)), "kind", ["volume"]),
         (lambda: taut.Session(V, RAGGED), "C", ["row 1 has 2"]),
         (lambda: taut.Session(V, F).release(RAGGED), "vs", ["no numbers"]),
         (lambda: taut.Session(V, F).pin(RAGGED, [0, 0]), "v", ["row 1 has 2"]),
