@@ -61,6 +61,14 @@ def _no_numbers(value: Any, error: Exception) -> str:
     return f"these are no numbers: {error}"
 
 
+def shape(value: Any) -> tuple[int, ...]:
+    """The shape of an array, or of lists as one; () of what is none, as of rows of several lengths."""
+    try:
+        return np.shape(value)
+    except (TypeError, ValueError):
+        return ()
+
+
 def path(name: str, value: Any) -> str:
     """The name of a file. Raises `ParameterError` for what is none, or would be another file's."""
     try:
@@ -148,16 +156,19 @@ def ids(name: str, value: Any, count: int) -> Array:
 
 def vertex(name: str, value: Any, count: int) -> int:
     """The number of one vertex."""
-    if np.ndim(value):
-        raise ParameterError(f"{name}: has the shape {np.shape(value)}, but must be one vertex", field=name)
-    return int(ids(name, [value], count)[0])
+    a = _numbers(name, value)
+    if a.ndim:
+        raise ParameterError(f"{name}: has the shape {a.shape}, but must be one vertex", field=name)
+    return int(ids(name, a.reshape(1), count)[0])
 
 
 def number(name: str, value: Any) -> float:
     """One number, of any value."""
     try:
+        if value is np.ma.masked:
+            raise ValueError
         return float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ParameterError(f"{name}: is {value!r}, but must be a number", field=name) from None
 
 
@@ -166,7 +177,7 @@ def whole(name: str, value: Any, least: int = 0, *, cap: bool = False) -> int:
     try:
         n = int(value)
         fits = n == value and n >= least
-    except (TypeError, ValueError, OverflowError):
+    except (TypeError, ValueError, OverflowError, np.ma.MaskError):
         fits = False
     if fits and cap:
         n = min(n, 2**31 - 1)

@@ -18,7 +18,7 @@ from .errors import ParameterError
 
 def _corner_uv(name: str, value: Any, faces: Any, vertices: int) -> Any:
     """Texture coordinates as three rows a triangle: given by corner, (m, 3, 2), or by vertex, (n, 2)."""
-    a = np.asarray(value)
+    a = _arrays.array(name, value)
     if a.ndim == 3 and a.shape == (len(faces), 3, 2):
         return _arrays.points(name, a.reshape(-1, 2), (2,))
     if a.ndim == 2 and a.shape == (vertices, 2):

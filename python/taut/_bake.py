@@ -73,7 +73,7 @@ def bake(image: ArrayLike, old_uv: ArrayLike, new_uv: ArrayLike, *, size: int | 
                                "samples": _arrays.whole("samples", samples),
                                "gutter": math.inf if gutter is None else _arrays.number("gutter", gutter)}
     if size is not None:
-        both: Any = (size, size) if np.ndim(size) == 0 else size
+        both: Any = (size, size) if _arrays.shape(size) == () else size
         try:
             width, height = (_arrays.whole("size", n) for n in both)
         except (TypeError, ValueError):

@@ -129,7 +129,7 @@ def _uv_rows(uv: Any, F: Array, vertices: int) -> Array:
         uv = uv.corner_uv
     elif isinstance(uv, Map):
         uv = uv.uv[uv.faces] if uv.faces is not None else uv.uv
-    a = _arrays.array("uv", uv, nan=np.ndim(uv) == 3)
+    a = _arrays.array("uv", uv, nan=len(_arrays.shape(uv)) == 3)
     if a.shape == (len(F), 3, 2):
         return _arrays.points("uv", a.reshape(-1, 2), (2,), nan=True)  # NaN: corners that have none
     rows: Array = _corner_uv("uv", a, F, vertices)
@@ -225,7 +225,7 @@ def _write_new(name: str, extension: str, V: Any, F: Any, uv: Any) -> None:
         _write_bare(name, points, faces)
     elif isinstance(uv, Atlas) or isinstance(uv, Map) and uv.faces is not None and uv.vmapping is not None:
         native().write_new_surface(name, np.asarray(points)[uv.vmapping], uv.faces, uv.uv)
-    elif np.ndim(uv) == 2 or isinstance(uv, Map):
+    elif len(_arrays.shape(uv)) == 2 or isinstance(uv, Map):
         per_vertex = _arrays.points("uv", getattr(uv, "uv", uv), (2,), rows=len(points))
         native().write_new_surface(name, points, faces, per_vertex)
     else:

@@ -178,10 +178,11 @@ def at_scale(options: Mapping[str, Any], of: str, **own: bool) -> dict[str, Any]
 
 def _map_of(C: Any, x: Any, V: Any = None) -> tuple[Any, Any, int, Any]:
     """Cells, where the map has vertices, the dimension, and vertices at rest if these are given, too."""
-    cells = np.asarray(C)
-    if cells.ndim != 2 or cells.shape[1] not in (3, 4):
-        raise ParameterError(f"C: has the shape {cells.shape}, but must be (m, 3) or (m, 4)", field="C")
-    dim = cells.shape[1] - 1
+    shape = _arrays.shape(C)
+    if len(shape) != 2 or shape[1] not in (3, 4):
+        shape = _arrays.array("C", C).shape  # rows of several lengths are told as such
+        raise ParameterError(f"C: has the shape {shape}, but must be (m, 3) or (m, 4)", field="C")
+    dim = shape[1] - 1
     rest = None if V is None else _arrays.points("V", V, (2, 3) if dim == 2 else (3,))
     points = _arrays.points("x", x, (dim,), rows=None if rest is None else len(rest))
     return _arrays.indices("C", C, (dim + 1,), len(points)), points, dim, rest

@@ -76,7 +76,7 @@ def pack(
     resolution, padding, tiles, rotate
         Texels along a tile; least distance of charts in texels; how many tiles; whether charts are turned.
     densities : (m,) array-like, optional
-        Factors of lengths of triangles; that of a chart is the mean of its own.
+        Factors of lengths of triangles; that of a chart is the mean of its own. Refused where all charts are fixed.
     time_limit, progress
         As in `unwrap`; the best layout so far is returned.
 
@@ -110,8 +110,9 @@ def pack(
     if stays.any():
         found = _walls(points, faces, chart, np.flatnonzero(stays), tiles)
         options["wall_tiles"], options["wall_ends"], tile[stays] = found
-    if stays.all():
-        return Packed(made_uv, chart, tile, 1.0, 0.0, True)
+    if stays.any() and stays.all() and densities is not None:
+        raise ParameterError("densities: have no effect, as all charts are fixed; leave them out, or fix fewer",
+                             field="densities")
     moved = np.flatnonzero(~stays)
     moved = moved[np.argsort(chart[moved], kind="stable")]
     own = np.unique(chart[moved], return_inverse=True)[1].reshape(-1)
@@ -128,10 +129,12 @@ def pack(
         options["densities"] = np.bincount(own, factors) / np.bincount(own)
 
     moving = points[vertices]
-    size = np.frexp(np.abs(moving).max())[1]
+    size = np.frexp(np.abs(moving).max(initial=0))[1]
     power = 0 if abs(size) < 300 else -int(size)  # areas of others are no doubles
 
     def make(d: dict[str, Any]) -> Packed:
+        if not len(moved):
+            return Packed(made_uv, chart, tile, 1.0, 0.0, True)
         places = d["tile"]
         shift = np.c_[places % 10 - places, places // 10]  # rows of ten tiles
         made_uv[vertices] = d["uv"] + shift[of_vertex[vertices]]

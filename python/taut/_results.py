@@ -13,6 +13,13 @@ from ._arrays import Floats, Ints
 from .errors import Infeasible, NoMap
 
 
+def _require_energy(d: dict[str, Any], best: Any) -> None:
+    """Raises `NoMap` where an energy is no number of a shape without inverted elements, so that nothing was minimised."""
+    if np.isnan(d.get("energy", 0.0)):
+        raise NoMap("energy: is not finite, but nan, for a shape without inverted elements, so nothing was minimised; "
+                    "give one that is finite there", field="energy", fault="not_finite", notes=d.get("notes", ()), best=best)
+
+
 @dataclass(frozen=True)
 class Certificate:
     """Whether a map is locally injective, in exact arithmetic. True where it is.
@@ -127,6 +134,7 @@ class Map:
             cell_origins=d.pop("cell_origins", None),
         )
         if valid:
+            _require_energy(d, made)
             return made
         kind = Infeasible if d["outcome"] == "infeasible" else NoMap
         raise kind(
@@ -342,6 +350,7 @@ class Frame:
         if d["outcome"] != "valid":
             kind = Infeasible if d["outcome"] == "infeasible" else NoMap
             raise kind(d["reason"] or d["outcome"], ids=d["ids"], fault=d["outcome"], notes=d["notes"])
+        _require_energy(d, None)
         return Frame(
             x=x,
             pins_held=d["pins_held"],

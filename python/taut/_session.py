@@ -71,9 +71,10 @@ class Session:
         time_limit: float | None = None,
         device: Any = None,
     ) -> None:
-        shape = np.shape(np.asarray(C))
+        shape = _arrays.shape(C)
         corners = shape[1] if len(shape) == 2 else 0
-        kind = kind or ("volume" if corners == 4 else "map")
+        if kind is None:
+            kind = "volume" if corners == 4 else "map"
         if not isinstance(kind, str) or kind not in _KINDS:
             raise ParameterError(f"kind: is {kind!r}, but must be one of {', '.join(_KINDS)}", field="kind")
         name, self.dim = _KINDS[kind]
@@ -82,7 +83,7 @@ class Session:
         if shell:
             unused |= {"initial": initial, "weights": weights, "attributes": attributes, "directions": directions,
                        "energy": None if isinstance(energy, str) and energy == "isometric" else energy,
-                       "parameters": parameters if np.size(np.asarray(parameters)) else None}
+                       "parameters": None if _arrays.shape(parameters) == (0,) else parameters}
         for name_of, value in unused.items():
             if value is not None:
                 raise ParameterError(f'{name_of}: has no effect with kind="{kind}"', field=name_of)
@@ -140,7 +141,7 @@ class Session:
         return pinned
 
     def _vertex(self, v: int) -> int:
-        if np.ndim(v):
+        if _arrays.shape(v):
             raise ParameterError("v: is an array, but must be one vertex; move() takes several", field="v")
         return _arrays.vertex("v", v, self._count)
 
@@ -196,7 +197,7 @@ class Session:
         if vs is None:
             self._session.release_all()
         else:
-            for v in _arrays.ids("vs", np.atleast_1d(np.asarray(vs)), self._count):
+            for v in _arrays.ids("vs", vs if _arrays.shape(vs) else [vs], self._count):
                 self._session.release(int(v))
         return self
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import inspect
 import sys
 from collections.abc import Callable
 from typing import Any, Union, overload
@@ -213,13 +214,18 @@ class Energy:
         if isinstance(other, Energy):
             return Energy(_Product(self, other), barrier=self.barrier or other.barrier)
         if isinstance(other, (int, float, np.number)):
+            if not np.isfinite(other):
+                raise ParameterError(f"factor: is {other}; an energy is multiplied by a finite number", field="factor")
             return Energy(_Scaled(float(other), self), barrier=self.barrier)
         return NotImplemented
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: float) -> Energy:
-        return self * (1.0 / float(other))
+        divisor = _arrays.number("divisor", other)
+        if divisor == 0:
+            raise ParameterError("divisor: is 0; an energy is divided by another number", field="divisor")
+        return self * (1.0 / divisor)
 
     def __reduce__(self) -> Any:
         # One that a module has under its own name, as a decorated function, is found there again.
@@ -262,8 +268,13 @@ class Energy:
         if matrix.shape not in ((2, 2), (3, 3)):
             raise ParameterError(f"S: has the shape {matrix.shape}, but must be (2, 2) or (3, 3)", field="S")
         dim = len(matrix)
-        numbers = (np.asarray(a, dtype=np.float64).reshape(-1) for a in (attributes, parameters))
+        numbers = _numbers_of(attributes, parameters)
         return float(getattr(native(), f"value_{dim}")(self.native(dim), matrix, measure, *numbers))
+
+
+def _numbers_of(attributes: Any, parameters: Any) -> list[Any]:
+    given = {"attributes": attributes, "parameters": parameters}
+    return [_arrays.array(name, value).reshape(-1) for name, value in given.items()]
 
 
 def _one(made: Any) -> Any:
@@ -330,6 +341,18 @@ EnergyLike = Union[str, Energy, Callable[[Any], Any]]
 _by_name: dict[str, BuiltinEnergy] = {}
 
 
+def _require_one_argument(function: Callable[..., Any]) -> None:
+    try:
+        taken = inspect.signature(function)
+    except (TypeError, ValueError):  # of what is compiled
+        return
+    try:
+        taken.bind(None)
+    except TypeError:
+        raise ParameterError("energy: is a function that cannot be called with one element alone; give one of one argument",
+                             field="energy") from None
+
+
 def as_energy(energy: Any) -> Energy:
     """The energy that a word, a function or an energy stands for."""
     if isinstance(energy, Energy):
@@ -341,6 +364,7 @@ def as_energy(energy: Any) -> Energy:
             _by_name[energy] = made
         return _by_name[energy]
     if callable(energy):
+        _require_one_argument(energy)
         return Energy(energy)
     raise ParameterError(f"energy: {energy!r} is none; give a name, a function or a taut.Energy", field="energy")
 
@@ -400,7 +424,7 @@ def check_gradient(
     """
     if dim not in (2, 3):
         raise ParameterError(f"dim: is {dim}, but must be 2 or 3", field="dim")
-    numbers = [np.asarray(a, dtype=np.float64).reshape(-1) for a in (attributes, parameters)]
+    numbers = _numbers_of(attributes, parameters)
     check = getattr(native(), f"check_gradient_{dim}")
     return list(check(as_energy(energy).native(dim), numbers[0], directions, numbers[1], trials))
 

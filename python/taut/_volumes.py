@@ -54,13 +54,13 @@ def of_mesh(
     return V, cells, _in_plane(options, z)
 
 
-def _plane_of(points: Array) -> tuple[Array, float]:
+def _plane_of(points: Array, name: str = "V") -> tuple[Array, float]:
     """Points without z, and their z. Raises `ParameterError` where it is not the same for all."""
     z = float(points[0, 2]) if len(points) else 0.0
     if (points[:, 2] != z).any():
         raise ParameterError(
-            "V: triangles and quads that do not lie in a plane z = const; a surface in space is a shell (taut.shell)",
-            field="V",
+            f"{name}: triangles and quads that do not lie in a plane z = const; a surface in space is a shell (taut.shell)",
+            field=name,
         )
     return points[:, :2], z
 
@@ -69,7 +69,7 @@ def _in_plane(options: Mapping[str, Any], z: float | None) -> dict[str, Any]:
     """Options of a mesh in a plane: of places with three numbers the last one, which must be z or NaN, is left out."""
 
     def flat(name: str, rows: Any) -> Any:
-        if z is None or np.ndim(rows) != 2 or np.shape(rows)[1] != 3:
+        if z is None or len(_arrays.shape(rows)) != 2 or _arrays.shape(rows)[1] != 3:
             return rows
         places = _arrays.points(name, rows, nan=True)
         off = np.flatnonzero((places[:, 2] != z) & ~np.isnan(places[:, 2]))
@@ -90,12 +90,12 @@ def _is_table(rows: Any) -> bool:
     shape = getattr(rows, "shape", None)
     if shape is not None:
         return len(shape) == 2
-    return hasattr(rows, "__len__") and bool(len(rows)) and hasattr(rows[0], "__len__")
+    return isinstance(rows, (list, tuple)) and bool(rows) and hasattr(rows[0], "__len__")
 
 
-def _blocks(V: Any, C: Any) -> tuple[Array, list[Array], int, float | None]:
+def _blocks(V: Any, C: Any, name: str = "V") -> tuple[Array, list[Array], int, float | None]:
     """Points, cells by kind, the dimension, that of the points, or 2 for triangles in a plane z = const, and that z."""
-    points = _arrays.points("V", V, (2, 3))
+    points = _arrays.points(name, V, (2, 3))
     given = C if isinstance(C, (list, tuple)) and len(C) and _is_table(C[0]) else [C]
     blocks = [np.ascontiguousarray(_arrays.indices("C", c, (3, 4, 5, 6, 8), len(points))) for c in given]
     if not any(len(c) for c in blocks):
@@ -104,7 +104,7 @@ def _blocks(V: Any, C: Any) -> tuple[Array, list[Array], int, float | None]:
         return points, blocks, 2, None
     if not all(c.shape[1] == 3 for c in blocks):
         return points, blocks, 3, None
-    points, z = _plane_of(points)
+    points, z = _plane_of(points, name)
     return points, blocks, 2, z
 
 
@@ -313,7 +313,7 @@ def untangle(
     >>> taut.certify(C, square).flipped.tolist(), bool(taut.certify(C, taut.untangle(square, C, [0, 1, 2, 3]).x))
     ([1, 2], True)
     """
-    points, blocks, dim, z = _blocks(X, C)
+    points, blocks, dim, z = _blocks(X, C, "X")
     options: dict[str, Any] = {
         "refine": refine,
         "rounds": rounds,

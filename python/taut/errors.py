@@ -92,7 +92,8 @@ class NoMap(TautError):
     reason : str
         Why.
     best : Map or None
-        The map with the fewest defects, where there is one. It is not certified.
+        The map with the fewest defects, where there is one. It is not certified, unless `fault` is "not_finite": the
+        energy has no value there.
     """
 
     def __init__(self, message: str = "", *, best: Any = None, **more: Any) -> None:

@@ -187,9 +187,18 @@ def _area(loop: Any) -> float:
 
 
 def write_dxf(path: Any, made: list[Piece], *, gap: float = 20.0, notch: float = 4.0) -> None:
-    """Pieces side by side, in mm: layers OUTLINE, SEAM (numbers and lengths), NOTCH (amid each seam), GRAIN (upwards)."""
+    """Pieces side by side, in mm: layers OUTLINE, SEAM (numbers and lengths), NOTCH (amid each seam), GRAIN (upwards).
+
+    made : as `pieces` returns them
+    """
+    path = _arrays.path("path", path)
+    wrong = [made] if not isinstance(made, (list, tuple)) else [item for item in made if not isinstance(item, Piece)]
+    if wrong:
+        raise ParameterError(f"made: has a {type(wrong[0]).__name__}, but must be a list of pieces, as patterns.pieces() "
+                             "returns it", field="made")
+    gap, notch = _arrays.number("gap", gap), _arrays.number("notch", notch)
     for name, value in (("gap", gap), ("notch", notch)):
-        if not 0 <= _arrays.number(name, value) < np.inf:
+        if not 0 <= value < np.inf:
             raise ParameterError(f"{name}: is {value}, but must not be negative", field=name)
     import ezdxf
 

@@ -86,8 +86,13 @@ def test_pieces_of_a_pattern_have_seams_of_one_length(tmp_path):
     on_surface = np.linalg.norm(np.diff(V[line], axis=0), axis=1).sum()
     for piece in lengths:
         assert piece[1] == pytest.approx(on_surface, rel=0.1)
+    for wrong in (None, made[0], [made], "pieces"):
+        with pytest.raises(taut.ParameterError, match="made: .*patterns.pieces"):
+            patterns.write_dxf(tmp_path / "none.dxf", wrong)
+    with pytest.raises(taut.ParameterError, match="path: is None"):
+        patterns.write_dxf(None, made)
     ezdxf = pytest.importorskip("ezdxf")
-    patterns.write_dxf(tmp_path / "pattern.dxf", made)
+    patterns.write_dxf(tmp_path / "pattern.dxf", made, gap="20")
     drawing = ezdxf.readfile(tmp_path / "pattern.dxf")
     layers = [e.dxf.layer for e in drawing.modelspace()]
     assert drawing.units == 4 and layers.count("OUTLINE") == 2 and layers.count("NOTCH") == layers.count("SEAM") == 2

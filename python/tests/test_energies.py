@@ -146,6 +146,25 @@ def test_what_cannot_be_traced_is_said():
         kept[0] + 1
 
 
+def test_energies_that_are_no_numbers_are_refused(bowl):
+    V, F = bowl
+    for wrong, name in ((lambda e: float("nan") * e, "factor: is nan"), (lambda e: e * np.inf, "factor: is inf"),
+                        (lambda e: e / 0, "divisor: is 0"), (lambda e: e / "two", "divisor: is 'two'")):
+        with pytest.raises(taut.ParameterError, match=name):
+            wrong(energies.isometric)
+
+    @taut.energy
+    def nowhere(s):
+        return s.S.norm2() + np.log(s.J - 1e6)
+
+    flat, square = V[:, :2], [0, 1]
+    for call in (lambda: taut.unwrap(V, F, energy=nowhere), lambda: taut.Session(V, F, energy=nowhere).solve(),
+                 lambda: taut.deform(flat, F, square, flat[square], energy=nowhere)):
+        with pytest.raises(taut.NoMap, match="energy: .*nan") as none:
+            call()
+        assert none.value.field == "energy" and none.value.fault == "not_finite"
+
+
 def test_check_gradient_finds_what_is_wrong(bowl):
     assert any("barrier" in f for f in taut.check_gradient(taut.Energy(lambda s: s.S.norm2())))
     assert any("corner" in f for f in taut.check_gradient(taut.Energy(lambda s: s.S[0, 0] ** 2, barrier=False)))

@@ -10,6 +10,7 @@ from conftest import bowl_of
 import taut
 
 V, F = bowl_of(4)
+RAGGED = [[0, 1, 2], [0, 1]]
 TETRAHEDRON = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]], [[0, 1, 2, 3]]
 
 
@@ -41,6 +42,24 @@ TETRAHEDRON = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]], [[0, 1, 2, 3]]
         (lambda: taut.Session(V, F).pin_u(0, "x"), "u", ["'x'"]),
         (lambda: taut.Session(V, F).spring(0, [0, 0], None), "weight", ["None"]),
         (lambda: taut.Session(V, F).restore(3), "snapshot", ["3"]),
+        (lambda: taut.Session(V, F, kind=np.zeros(2)), "kind", ["volume"]),
+        (lambda: taut.Session(V, RAGGED), "C", ["row 1 has 2"]),
+        (lambda: taut.Session(V, F).release(RAGGED), "vs", ["no numbers"]),
+        (lambda: taut.Session(V, F).pin(RAGGED, [0, 0]), "v", ["row 1 has 2"]),
+        (lambda: taut.Session(V, F, kind="shell", parameters=RAGGED), "parameters", ["no effect"]),
+        (lambda: taut.certify(RAGGED, V), "C", ["row 1 has 2"]),
+        (lambda: taut.atlas(V, F, uv=RAGGED, charts="pack"), "uv", ["row 1 has 2"]),
+        (lambda: taut.paste((V, F), (V, F), RAGGED, at=0, radius=1), "onto", ["row 1 has 2"]),
+        (lambda: taut.paste((V, F), (V, F), 1, at=np.ma.masked, radius=1), "at", ["masked"]),
+        (lambda: taut.paste((V, F), (V, F), 1, at=0, radius=np.ma.masked), "radius", ["number"]),
+        (lambda: taut.pack(V[:, :2], F, tiles=np.ma.masked), "tiles", ["whole number"]),
+        (lambda: taut.untangle(np.full((4, 3), np.nan), [[0, 1, 2, 3]]), "X", ["row 0", "nan"]),
+        (lambda: taut.untangle(V, F), "X", ["taut.shell"]),
+        (lambda: taut.deform(V[:, :2], [{}]), "C", ["no numbers"]),
+        (lambda: taut.deform(V[:, :2], F, energy=lambda: 0), "energy", ["one argument"]),
+        (lambda: taut.deform([[0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2]], initial=RAGGED), "initial", ["row 1 has 2"]),
+        (lambda: taut.energies.isometric.value(np.eye(2), parameters=RAGGED), "parameters", ["row 1 has 2"]),
+        (lambda: taut.check_gradient("shape", attributes=RAGGED), "attributes", ["row 1 has 2"]),
     ],
 )
 def test_the_argument_is_named_as_python_has_it(call, field, words):

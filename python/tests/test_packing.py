@@ -69,6 +69,10 @@ def test_tiles_lie_in_rows_of_ten_and_densities_scale_charts():
 def test_all_fixed_and_none_at_all():
     uv, F = squares(1, 0.5)
     assert (taut.pack(uv, F, fixed=[1, 0]).uv == uv).all()
+    for name, value in (("resolution", -1), ("resolution", "large"), ("padding", np.nan), ("rotate", "no"),
+                        ("time_limit", -1), ("densities", [1, 2])):
+        with pytest.raises(taut.ParameterError, match=name):
+            taut.pack(uv, F, fixed=True, **{name: value})
     assert taut.pack(np.zeros((0, 2)), np.zeros((0, 3), int)).uv.shape == (0, 2)
 
 

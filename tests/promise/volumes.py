@@ -691,5 +691,42 @@ def beside_the_boundary(taut):
     taut("check", "out.mesh")
 
 
-main(single_precision, pins_in_single_precision, page_saves, pins_of_untangle, winding, turned_cells, tangled_is_not_turned,
-     what_no_turning_mends, problems, clockwise_su2, zones_of_su2, shared_markers_of_su2, interfaces, interfaces_of_any_kind, long_axes, beside_the_boundary, any_size)
+def flat_within_rounding(taut):
+    """Cells of nearly no volume are found, and told by their exact signs: inverted, flat, or positive."""
+    mesh = split(hexahedra((6, 6, 6), (6 / 32, 6 / 32, 6 / 32)), "tetrahedron")
+    of_face = {}
+    for i, (_, c) in enumerate(mesh.cells):
+        for face in itertools.combinations(c, 3):
+            of_face.setdefault(frozenset(face), []).append(i)
+    points, cells, thin, used = list(mesh.points), list(mesh.cells), {}, set()
+    for face, of in sorted(of_face.items(), key=lambda item: sorted(item[0])):
+        heights = {points[v][2] for v in face}
+        if len(of) < 2 or heights != {5 / 32} or set(of) & used or len(thin) == 6:
+            continue
+        cell = cells[of[0]][1]
+        apex = next(v for v in cell if v not in face)
+        side = 1 if points[apex][2] > 5 / 32 else -1
+        # A point almost on the face: the cell behind becomes three, and one between of nearly no volume.
+        sign = (1, -1, 0)[len(thin) % 3]
+        points.append((*(sum(points[v][k] for v in face) / 3 for k in (0, 1)), 5 / 32 + sign * side * 2.0**-55))
+        at = lambda old: ("tetrahedron", [len(points) - 1 if v == old else v for v in cell])
+        cells[of[0]] = at(apex)
+        cells += [at(v) for v in face]
+        thin[of[0]] = sign
+        used.update(of)
+    made = Mesh(points, cells)
+    volume = {i: volume6(*(exact(points[v]) for v in cells[i][1])) / 6 for i in thin}
+    assert len(thin) == 6 and all(abs(v) < 1e-20 and (v > 0) - (v < 0) == thin[i] for i, v in volume.items()), volume
+    bad = sorted(i for i, sign in thin.items() if sign <= 0)
+    assert made.not_positive(points) == bad
+    told = json.loads(taut("check", taut.write("thin.vtk", made.vtk()), "--json", code=4).stdout)
+    of = lambda sign: sorted(i for i in thin if thin[i] == sign)
+    assert told["inverted"] == len(bad) and told["inverted_ids"] == of(-1), told
+    assert told["degenerate_ids"] == sorted(of(0) + of(1)), told
+    found = {f["message"].split(") ")[1].split(",")[0].split(";")[0]: (f["severity"], f["ids"]) for f in told["findings"]}
+    assert found == {"inverted": ("error", of(-1)), "flat": ("error", of(0)), "positive": ("warning", of(1))}, found
+
+
+if __name__ == "__main__":
+    main(single_precision, pins_in_single_precision, page_saves, pins_of_untangle, winding, turned_cells, tangled_is_not_turned,
+         what_no_turning_mends, problems, clockwise_su2, zones_of_su2, shared_markers_of_su2, interfaces, interfaces_of_any_kind, long_axes, beside_the_boundary, any_size, flat_within_rounding)

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include <taut/impl/core/exact/predicates.hpp>
 #include <taut/impl/core/measure/describe_defects.hpp>
-#include <taut/impl/core/mesh/cell_corners.hpp>
 #include <taut/impl/files/volume/cell_faces.hpp>
 
 #include "shared/text_table.hpp"
@@ -35,38 +38,66 @@ std::vector<idx> owners_of(const std::vector<idx>& simplices, const std::vector<
     return cells;
 }
 
-/// Cells that are flat, or turned over, at a corner.
+/// Simplices that no deformation can start from, as they are too thin, and others that are nearly flat.
+template <class Element>
+std::pair<std::vector<idx>, std::vector<idx>> thin_simplices(const mesh<Element>& m)
+{
+    constexpr double nearly = 1e-12; // height by length: within some thousand roundings
+    const double unit = impl::unit_scale(m);
+    std::pair<std::vector<idx>, std::vector<idx>> found;
+    for (idx s = 0; s < m.cell_count(); ++s)
+    {
+        if (Element::is_thick(impl::scaled_rest(m, s, unit))) continue;
+        const double flatness = Element::flatness(impl::ideal_of(m, s, unit));
+        if (!(flatness > nearly)) (flatness > impl::flattest ? found.second : found.first).push_back(s);
+    }
+    return found;
+}
+
+/// Cells that are flat, or turned over, at a corner: by exact signs, however small their measures are.
 template <class Element>
 void report_signs(check_report& report, const volume_case<Element>& input, const volume_state& state)
 {
-    auto [flat, inverted] = impl::bad_rest_cells(input.simplices());
-    auto thin = owners_of(flat, input.parts().cells);
-    auto turned = owners_of(inverted, input.parts().cells);
-    if (Element::dimension == 2) // triangles at rest lie in space, and have no sign there
+    const auto x = input.points();
+    const auto sign_of = [&](idx simplex)
     {
-        turned = state.inverted;
-        std::erase_if(turned, [&](idx c) { return std::binary_search(thin.begin(), thin.end(), c); });
-    }
-    std::erase_if(thin, [&](idx c) { return std::binary_search(turned.begin(), turned.end(), c); });
+        return std::apply([&](auto... v) { return impl::orient(x[static_cast<std::size_t>(v)]...).sign; },
+                          input.simplices().cells()[static_cast<std::size_t>(simplex)]);
+    };
+    std::vector<idx> negative, zero;
+    for (const idx s : state.simplices.ids) // others are positive
+        if (const int sign = sign_of(s); sign <= 0) (sign < 0 ? negative : zero).push_back(s);
+    const auto [thin, nearly] = thin_simplices(input.simplices());
+    const auto cells_of = [&](const std::vector<idx>& simplices) { return owners_of(simplices, input.parts().cells); };
+    const auto without = [](std::vector<idx> cells, const std::vector<idx>& others)
+    {
+        std::erase_if(cells, [&](idx c) { return std::binary_search(others.begin(), others.end(), c); });
+        return cells;
+    };
+    const auto turned = cells_of(negative), flat = without(cells_of(zero), turned);
+    const auto positive = without(without(cells_of(thin), turned), flat);
+    const auto nearly_flat = without(without(without(cells_of(nearly), turned), flat), positive);
+    std::vector<idx> degenerate;
+    for (const auto* cells : {&flat, &positive, &nearly_flat})
+        degenerate.insert(degenerate.end(), cells->begin(), cells->end());
+    std::sort(degenerate.begin(), degenerate.end());
     report.details["inverted_ids"] = turned;
-    report.details["degenerate_ids"] = thin;
+    report.details["degenerate_ids"] = degenerate;
     if (!turned.empty())
         report_mesh(report,
                     {mesh_error::inverted_cell, turned,
                      list_cells(input, turned) + " inverted, in a mesh that is oriented as " + input.file().format +
                          " files are; `taut untangle` moves vertices"},
                     true);
-    const auto flat_there = [&](idx c) { return std::binary_search(state.inverted.begin(), state.inverted.end(), c); };
-    const auto positive = std::stable_partition(thin.begin(), thin.end(), flat_there);
     const auto report_thin = [&](const std::vector<idx>& cells, bool wrong, const char* what)
     {
         if (!cells.empty())
             report_mesh(report, {mesh_error::degenerate_cell, cells, list_cells(input, cells) + what}, wrong);
     };
-    report_thin({thin.begin(), positive}, true, " flat; collapse an edge or move a vertex of each");
+    report_thin(flat, true, " flat; collapse an edge or move a vertex of each");
     // As untangling may leave them: certified, and only no shape that a deformation can start from.
-    report_thin({positive, thin.end()}, false,
-                " positive, but too thin to be a shape at rest; `taut smooth` improves shapes");
+    report_thin(positive, false, " positive, but too thin to be a shape at rest; `taut smooth` improves shapes");
+    report_thin(nearly_flat, false, " positive, but nearly flat; `taut smooth` improves shapes");
 }
 
 /// Reports the faces between cells of one kind.

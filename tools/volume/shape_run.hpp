@@ -191,6 +191,7 @@ private:
         keep(kept_);
         if (report_.run.outcome == outcome::valid && !report_.run.stopped)
         {
+            pins_.rotations({}); // they are at their ends
             const auto again = [&](const volume_case<Element>& edged, const map& from)
             {
                 auto [other, how] = solve(q, edged, from);

@@ -53,6 +53,7 @@ TEST_CASE("long rotation: what is done already is found in a map, also where end
     for (const vec3& p : from) x.push_back(motion(p, 0.2));
     r.find_done(x);
     CHECK(r.parts() == 4);
+    CHECK(r.turned() == doctest::Approx(0.2 * r.angle()));
     x.clear();
     for (const vec3& p : from) x.push_back(motion(p, 0.45)); // a quarter turn more than half of it, less 10 per cent
     r.find_done(x);

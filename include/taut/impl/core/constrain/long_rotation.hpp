@@ -32,6 +32,10 @@ public:
 
     const std::vector<idx>& vertices() const { return vertices_; }
 
+    /// Angle of the motion, and how much of it is done; radians.
+    double angle() const { return motion_.angle; }
+    double turned() const { return done_ * motion_.angle; }
+
     /// Number of parts of what is left of it, none of which is long.
     int parts() const
     {

@@ -65,7 +65,7 @@ private:
     /// Accepts the map on the device if it is certified; else restores the last one.
     void take(session_call& call);
 
-    /// Notes the distance of fixed coordinates of the last map from their targets.
+    /// Notes how far fixed coordinates of the last map are from their targets, and rotations from their ends.
     void note_gap();
 
     static constexpr int most_in_float = 300; ///< steps, where double can go on; what converges in float takes fewer
@@ -318,10 +318,12 @@ template <class Element>
 void session_run<Element>::note_gap()
 {
     const auto gap = map_.fixed.gap(last.x);
-    const auto& rotations = wanted.rotations();
+    auto rotations = wanted.rotations();
+    for (auto& r : rotations) r.find_done(last.x);
     last.report.pins_held = gap.vertex < 0 && rotations.empty();
     last.report.farthest = gap.vertex < 0 && !rotations.empty() ? rotations[0].vertices()[0] : gap.vertex;
     last.report.distance = gap.distance;
+    wanted.rotations(std::move(rotations));
 }
 
 // Compiled once, with the bodies.
