@@ -63,14 +63,6 @@ void keep_freed_memory()
 #endif
 }
 
-/// Rounds a coordinate in the plane of the atlas as in glTF, whose v is -v there.
-template <io::gltf_model::numbers Numbers>
-vec2 in_gltf(vec2 x)
-{
-    const vec2 y = io::gltf_model::rounded({x.x, -x.y}, Numbers);
-    return {y.x, -y.y};
-}
-
 /// Returns whether pinned corners stay as they are.
 bool holds_pinned(const atlas_params& params)
 {
@@ -233,16 +225,16 @@ private:
     /// Texture coordinates are floats, or fractions where these hold what is pinned as it is and floats do not.
     void store_in_gltf(atlas_params& params)
     {
-        params.stored = in_gltf<io::gltf_model::numbers::floats>;
+        params.stored = io::gltf_model::stored<io::gltf_model::numbers::floats>;
         if (holds_pinned(params)) return;
-        params.stored = in_gltf<io::gltf_model::numbers::fractions>;
+        params.stored = io::gltf_model::stored<io::gltf_model::numbers::fractions>;
         numbers_ = io::gltf_model::numbers::fractions;
         if (params.packing.tiles == 1 && holds_pinned(params)) // they end at 1
         {
             params.packing.rounding = std::max(params.packing.rounding, 0.5 / 65535);
             return;
         }
-        params.stored = in_gltf<io::gltf_model::numbers::floats>;
+        params.stored = io::gltf_model::stored<io::gltf_model::numbers::floats>;
         numbers_ = io::gltf_model::numbers::floats;
         report_.notes.push_back("coordinates of kept charts are rounded to single precision, as glTF has no other");
     }
