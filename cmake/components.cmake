@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
-# The components of find_package(taut COMPONENTS ...). headers, taut, core, files and charts are there in any case. dist is that of taut/dist.hpp;
+# The components of find_package(taut COMPONENTS ...). headers, taut, core, files and charts are there in any case.
+# dist is that of taut/dist.hpp;
 # gltf and eigen are those of taut/gltf.hpp and taut/eigen.hpp: taut::gltf and taut::eigen are taut::headers with the library that each needs.
-foreach(name headers taut ${taut_houses})
+foreach(name headers taut core files charts)
     set(taut_${name}_FOUND TRUE)
 endforeach()
 function(taut_component name package target)

@@ -338,9 +338,10 @@ private:
         template <int D>
         static constexpr bool is_traceable = !std::invocable<const E&, const element<double, D>&> ||
                                              std::invocable<const E&, const element<sym<double>, D>&>;
-        static_assert(is_traceable<2> && is_traceable<3>,
-                      "an energy is traced with scalars other than double: make its operator() a template of the scalar, "
-                      "and call functions of mathematics without std::");
+        static_assert(
+            is_traceable<2> && is_traceable<3>,
+            "an energy is traced with scalars other than double: make its operator() a template of the scalar, "
+            "and call functions of mathematics without std::");
 
         template <class T, int D>
         T call(const element<T, D>& x) const

@@ -39,7 +39,8 @@ enum class chart_preference
 struct atlas_params
 {
     /// How far charts go, and seams that are given. 4.1 is a stretch (L2) of 1.017; for packing, 4.2 and 4.045, the
-    /// bounds of segment_params, are good. Assign single fields: an initialiser of its own brings these bounds.
+    /// bounds of segment_params, are good. `{.charts = {.seams = s}}` has the bounds of segment_params: name both, or
+    /// assign `charts.seams` alone.
     segment_params charts = {.max_distortion = std::numeric_limits<double>::infinity(), .mean_distortion = 4.1};
 
     chart_preference prefer = chart_preference::seams;

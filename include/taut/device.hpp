@@ -131,8 +131,9 @@ std::vector<listed_device> devices(const device_requirements& needs = {});
 
 /// The device that a wish names: an index into devices(), or a part of a device's, vendor's or platform's name, in any
 /// case. Of several that fit, the best one: double precision before none, then GPU before CPU, then the largest. For an
-/// empty wish a GPU with double precision, else the host: other OpenCL devices are taken by name alone. With TAUT_FORM=gpu it is taken for a GPU. said: the words before the wish in the message of
-/// no_device, as "--device ". Throws no_device if none fits.
+/// empty wish a GPU with double precision, else the host: other OpenCL devices are taken by name alone. With
+/// TAUT_FORM=gpu it is taken for a GPU. said: the words before the wish in the message of no_device, as "--device ".
+/// Throws no_device if none fits.
 device find_device(const std::string& wish, const device_requirements& needs = {},
                    const std::string& said = "the wish ");
 

@@ -54,7 +54,7 @@ public:
     {
         std::size_t first = 0;
         std::size_t count = 0;
-        std::size_t round = 0; ///< the call of fetch() that brings them, from 1; 0: none
+        std::size_t round = 0; ///< that fetch() ends, from 1; 0: none
     };
 
     /// `count` runs of `length` elements each, from `start`, `stride` apart.

@@ -20,8 +20,12 @@ struct rigid_motion
     vec3 axis{0, 0, 1}; ///< axis of length 1; in the plane the normal
     double angle = 0;   ///< radians; of a fit -pi to pi in the plane, 0 to pi in space
 
-    /// Rotation about a point that stays where it is. axis: of any length but 0.
-    static rigid_motion about(const vec<D>& centre, double radians, const vec3& axis = {0, 0, 1})
+    /// Rotation about a point that stays where it is. axis: of any length but 0; in the plane there is no other.
+    static rigid_motion about(const vec<D>& centre, double radians) requires(D == 2)
+    {
+        return {centre, centre, vec3(0, 0, 1), radians};
+    }
+    static rigid_motion about(const vec<D>& centre, double radians, const vec3& axis) requires(D == 3)
     {
         return {centre, centre, glm::normalize(axis), radians};
     }

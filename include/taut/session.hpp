@@ -106,7 +106,8 @@ struct session_seconds
 struct session_report
 {
     /// `valid`: there is a certified map, though pins may be away from their places: see pins_held. Otherwise reason
-    /// and ids are as in map_report, and there are no coordinates but those of deform(), with the defects that ids name.
+    /// and ids are as in map_report, and there are no coordinates but those of deform(), with the defects that ids
+    /// name.
     taut::outcome outcome = outcome::no_valid_start;
     std::string reason;             ///< why there is no valid map, or why the pins cannot be reached; else empty
     std::vector<idx> ids;           ///< elements or vertices that the reason concerns

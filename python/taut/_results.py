@@ -16,7 +16,7 @@ from .errors import Infeasible, NoMap
 def _require_energy(d: dict[str, Any], best: Any) -> None:
     """Raises `NoMap` where an energy is no number of a shape without inverted elements, so that nothing was minimised."""
     if np.isnan(d.get("energy", 0.0)):
-        raise NoMap("energy: is not finite, but nan, for a shape without inverted elements, so nothing was minimised; "
+        raise NoMap("energy: is nan for a shape without inverted elements, so nothing was minimised; "
                     "give one that is finite there", field="energy", fault="not_finite", notes=d.get("notes", ()), best=best)
 
 

@@ -214,9 +214,10 @@ class Energy:
         if isinstance(other, Energy):
             return Energy(_Product(self, other), barrier=self.barrier or other.barrier)
         if isinstance(other, (int, float, np.number)):
-            if not np.isfinite(other):
-                raise ParameterError(f"factor: is {other}; an energy is multiplied by a finite number", field="factor")
-            return Energy(_Scaled(float(other), self), barrier=self.barrier)
+            factor = _arrays.number("factor", other)
+            if not np.isfinite(factor):
+                raise ParameterError(f"factor: is {factor}; an energy is multiplied by a finite number", field="factor")
+            return Energy(_Scaled(factor, self), barrier=self.barrier)
         return NotImplemented
 
     __rmul__ = __mul__

@@ -265,6 +265,24 @@ def test_the_largest_of_several_nodes_counts():
     assert any("the largest counts: 1 mesh (0)" in n for n in told["notes"]), told["notes"]
 
 
+def test_meshes_of_the_same_triangles_count_as_one():
+    model = Model(materials=[{"name": "red"}, {"name": "blue"}])
+    model.mesh(*cube(), name="first", material=0)
+    model.document["meshes"].append({"name": "second", "primitives": [{**model.document["meshes"][0]["primitives"][0], "material": 1}]})
+    model.mesh(*cube(), name="other")
+    model.write("same.glb", [{"mesh": 0}, {"mesh": 1, "scale": [5, 5, 5], "name": "top"}, {"mesh": 2}])
+    told = atlas("same.glb", *PAGE)
+    require_densities("out.glb", 512, {0: 80, 1: 16, 2: 16})
+    assert any("the largest counts: 1 mesh (0)" in n for n in told["notes"]), told["notes"]
+    assert any("1 mesh is drawn by several nodes, 2 times" in n for n in told["notes"]), told["notes"]
+    for name in ("first", "second", "top", "red", "blue"):
+        atlas("same.glb", *PAGE, "--density", name + "=0.5")
+        require_densities("out.glb", 512, {0: 40, 1: 8, 2: 16})
+    model.write("same.glb", [{"mesh": 1, "scale": [5, 5, 5]}, {"mesh": 2}])
+    atlas("same.glb", *PAGE)
+    require_densities("out.glb", 512, {0: 16, 1: 16})
+
+
 def test_instances_of_an_extension_have_scales():
     model = two_cubes()
     attributes = {"SCALE": model.array([(2, 2, 2), (8, 8, 8)]), "TRANSLATION": model.array([(0, 0, 0), (50, 0, 0)])}
@@ -289,7 +307,10 @@ def test_odd_places_do_no_harm():
             assert abs(found / density - 1) < 1e-3, (number, found)
     two_cubes().write("odd.glb", [{"mesh": 0, "scale": [1, 1, 0]}, {"mesh": 1, "scale": [0, 0, 0]}])
     told = atlas("odd.glb", *PAGE)
-    assert any("instead: 2 meshes (0, 1)" in n for n in told["notes"]), told["notes"]
+    for what in ("scaled alike in all directions instead: 1 mesh (0)", "left as the file has them: 1 mesh (1)"):
+        assert any(what in n for n in told["notes"]), told["notes"]
+    two_cubes().write("odd.glb", [{"mesh": 0, "children": [0]}, {"mesh": 1}])
+    atlas("odd.glb", *PAGE, "--density-in", "file")
 
 
 def test_nodes_that_are_none_are_refused():
@@ -299,8 +320,8 @@ def test_nodes_that_are_none_are_refused():
 
     assert "nodes 1 is below itself" in fault([{"mesh": 0}, {"children": [2]}, {"children": [1]}], roots=[0])
     assert "nodes 2 is a child of two nodes" in fault([{"children": [2]}, {"children": [2]}, {"mesh": 0}])
-    assert "nodes 0 has a scale that is none; give 3 numbers" in fault([{"mesh": 0, "scale": [1, 2]}])
-    assert "nodes 0 has a matrix that is none" in fault([{"mesh": 0, "matrix": ["1"] * 16}])
+    assert "nodes 0 has a scale that is not 3 numbers" in fault([{"mesh": 0, "scale": [1, 2]}])
+    assert "nodes 0 has a matrix that is not 16 numbers" in fault([{"mesh": 0, "matrix": ["1"] * 16}])
     assert "rotation of length 0" in fault([{"mesh": 0, "rotation": [0, 0, 0, 0]}])
     assert "meshes 7 is named" in fault([{"mesh": 7}])
     assert "nodes 9 is named" in fault([{"mesh": 0, "children": [9]}], roots=[0])
@@ -467,7 +488,7 @@ def test_a_mesh_a_node_a_material_gets_more_texels():
     fault = run("atlas", "named.glb", "-o", "x.glb", "--density", "heros=2", code=4)
     for name in ("hero", "crowd", "back row", "dog", "skin", "cloth=blue"):
         assert f"'{name}'" in fault, fault
-    for wrong in ("hero", "=2", "hero=", "hero=0", "hero=-1", "hero=nan", "hero=inf", "hero=2x"):
+    for wrong in ("hero", "=2", "hero=", "hero=0", "hero=-1", "hero=nan", "hero=inf", "hero=2x", "hero=1e4", "hero=1e-4"):
         assert "such as face=2" in run("atlas", "named.glb", "-o", "x.glb", "--density", wrong, code=2), wrong
     assert "twice" in run("atlas", "named.glb", "-o", "x.glb", "--density", "hero=2", "--density", "hero=3", code=2)
 

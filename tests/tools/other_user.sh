@@ -52,6 +52,13 @@ refused()
     absent out.mesh
 }
 refused 'belongs to another user' POCL_CACHE_DIR="$folder/own/full"
-refused '(belongs to|lies in a folder of) another user' POCL_CACHE_DIR="$folder/own/open"
+refused '(belongs to|a folder of) another user' POCL_CACHE_DIR="$folder/own/open"
+mkdir -p "$folder/own/open/mine/deeper"
+refused 'a folder of another user' POCL_CACHE_DIR="$folder/own/open/mine/deeper"
+code=0
+echo '{"id": "a", "args": ["unwrap", "in.obj", "-o", "out.obj"]}' >jobs
+POCL_CACHE_DIR="$folder/own/open" TAUT_DEVICE=pthread "$taut" batch --manifest jobs --jobs 1 >out 2>err || code=$?
+[ $code = 2 ] || fail "exit code $code instead of 2 of a batch"
+says err 'a folder of another user'
 refused '(others may write in it|everybody may rename it)' POCL_CACHE_DIR="$PWD/loose"
 refused 'there is no HOME' -u HOME -u XDG_CACHE_HOME -u POCL_CACHE_DIR

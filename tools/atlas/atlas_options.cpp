@@ -113,7 +113,7 @@ void declare_packing(const subcommand& app, atlas_options& o)
         .type_name("NAME=FACTOR")
         .one_value_each()
         .check([](const std::string& text)
-               { return density_in(text) ? "" : "must be a name, = and a positive number, such as face=2"; });
+               { return density_in(text) ? "" : "must be a name, = and a factor from 0.001 to 1000, such as face=2"; });
     app.add_option("--max-resolution", o.max_resolution,
                    "With --texels-per-unit: double the resolution up to N until the charts fit into one tile, or those "
                    "of --udim")

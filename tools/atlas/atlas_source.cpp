@@ -276,7 +276,15 @@ public:
             near_edges = describe_near_edges(model_.points, model_.triangles, bodies);
             take(mesh<triangle>(model_.points, model_.triangles));
         }
-        draws_ = io::impl::drawn_meshes(model_.source);
+        try
+        {
+            draws_ = io::impl::drawn_meshes(model_.source);
+        }
+        catch (const io::io_error&) // of nodes, which do not matter where meshes are measured alone
+        {
+            if (options.in_scene) throw;
+        }
+        find_copies();
         note_shared();
         if (!options.in_scene) return;
         auto points = placed_points(surface(), meshes(), draws_, notes);
@@ -303,6 +311,7 @@ public:
         for (const auto* const numbers : {&model_.meshes, &model_.materials})
             for (const idx i : std::set<idx>(numbers->begin(), numbers->end()))
                 result.merge(numbers == &model_.meshes ? names_of_mesh(i) : names_of_item("materials", i));
+        for (const auto& c : copies_) result.merge(names_of_copy(c));
         return result;
     }
 
@@ -313,16 +322,45 @@ public:
         for (const idx m : model_.materials) of_material.try_emplace(m, 0);
         for (auto& [m, is] : of_mesh) is = names_of_mesh(m).contains(name) ? 1 : 0;
         for (auto& [m, is] : of_material) is = names_of_item("materials", m).contains(name) ? 1 : 0;
+        std::vector<char> of_copy(model_.triangles.size());
+        for (const auto& c : copies_)
+            if (names_of_copy(c).contains(name))
+                std::fill_n(of_copy.begin() + static_cast<std::ptrdiff_t>(c.first), c.count, 1);
         std::vector<char> result(surface().cells().size());
         for (std::size_t c = 0; c < result.size(); ++c)
         {
             const std::size_t cell = origin(c, 0).first;
-            result[c] = of_mesh[model_.meshes[cell]] != 0 || of_material[model_.materials[cell]] != 0 ? 1 : 0;
+            const bool is =
+                of_copy[cell] != 0 || of_mesh[model_.meshes[cell]] != 0 || of_material[model_.materials[cell]] != 0;
+            result[c] = is ? 1 : 0;
         }
         return result;
     }
 
 private:
+    /// A node that draws triangles of another mesh draws that mesh.
+    void find_copies()
+    {
+        copies_ = io::impl::copied_triangles(model_.source);
+        std::map<std::size_t, std::set<std::size_t>> owners;
+        for (const auto& c : copies_)
+            if (c.owner != c.mesh) owners[c.mesh].insert(c.owner);
+        const auto draws = draws_;
+        for (auto draw : draws)
+            for (const std::size_t owner : owners[draw.mesh])
+            {
+                draw.mesh = owner;
+                draws_.push_back(draw);
+            }
+    }
+
+    std::set<std::string> names_of_copy(const io::impl::gltf_copy& c) const
+    {
+        auto result = names_of_mesh(static_cast<idx>(c.mesh));
+        result.merge(names_of_item("materials", c.material));
+        return result;
+    }
+
     /// Says which meshes have one place for what is drawn several times.
     void note_shared()
     {
@@ -389,6 +427,7 @@ private:
 
     io::gltf_model model_;
     std::vector<io::impl::gltf_draw> draws_;
+    std::vector<io::impl::gltf_copy> copies_;
     int set_;
 };
 

@@ -2,7 +2,6 @@
 #include "atlas/part_densities.hpp"
 
 #include <charconv>
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <set>
@@ -46,8 +45,7 @@ std::optional<part_density> density_in(std::string_view text)
     const std::string_view number = text.substr(sign + 1);
     double factor = 0;
     const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), factor);
-    if (fault != std::errc() || end != number.data() + number.size() || !(factor > 0 && std::isfinite(factor)))
-        return {};
+    if (fault != std::errc() || end != number.data() + number.size() || !(factor >= 1e-3 && factor <= 1e3)) return {};
     return part_density{std::string(text.substr(0, sign)), factor};
 }
 

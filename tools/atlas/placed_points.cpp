@@ -76,6 +76,19 @@ public:
         return glm::length(place.shift) <= far * glm::length(high - low);
     }
 
+    /// The middle of its box there, across x.
+    double middle(const gltf_transform& place) const
+    {
+        double low = std::numeric_limits<double>::max(), high = -low;
+        for (const std::size_t c : cells_)
+            for (const vec3& x : corners(c))
+            {
+                low = std::min(low, place(x).x);
+                high = std::max(high, place(x).x);
+            }
+        return low + (high - low) / 2;
+    }
+
     void put(const gltf_transform& place, std::vector<vec3>& points) const
     {
         for (const std::size_t c : cells_)
@@ -104,7 +117,7 @@ std::vector<vec3> placed_points(const mesh<triangle>& surface, std::span<const i
     std::map<idx, std::vector<std::size_t>> cells;
     for (std::size_t c = 0; c < meshes.size(); ++c) cells[meshes[c]].push_back(c);
     std::vector<vec3> points = surface.points();
-    std::vector<idx> flattened, varied;
+    std::vector<idx> flattened, left, varied;
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (auto& [m, own] : cells)
     {
@@ -113,15 +126,16 @@ std::vector<vec3> placed_points(const mesh<triangle>& surface, std::span<const i
         const mesh_place& known = found->second;
         if (known.most > known.least * (1 + 1e-6)) varied.push_back(m);
         gltf_transform place = known.place;
-        if (glm::determinant(place.linear) < 0)
-            for (int k = 0; k < 3; ++k) place.linear[k].x = -place.linear[k].x;
         const placed_mesh of(surface, std::move(own));
-        if (!of.holds(place)) place.shift = vec3(0.0);
-        if (!of.holds(place))
+        if (glm::determinant(place.linear) < 0) // where it is, turned inside out
         {
-            flattened.push_back(m);
-            place.linear = mat3(known.most);
+            place.shift.x = 2 * of.middle(place) - place.shift.x;
+            for (int k = 0; k < 3; ++k) place.linear[k].x = -place.linear[k].x;
         }
+        if (!of.holds(place)) place.shift = vec3(0.0);
+        const bool flat = !of.holds(place);
+        if (flat) place.linear = mat3(known.most);
+        if (flat) (of.holds(place) ? flattened : left).push_back(m);
         if (!of.holds(place)) continue;
         of.put(place, points);
         least = std::min(least, known.most);
@@ -137,6 +151,9 @@ std::vector<vec3> placed_points(const mesh<triangle>& surface, std::span<const i
     if (!flattened.empty())
         notes.push_back("flattened by nodes, and scaled alike in all directions instead: " +
                         impl::list_ids("mesh", "meshes", flattened));
+    if (!left.empty())
+        notes.push_back("scaled by nodes beyond what can be measured, and left as the file has them: " +
+                        impl::list_ids("mesh", "meshes", left));
     return points;
 }
 

@@ -290,8 +290,8 @@ private:
     std::function<bool()> goes_on_; ///< asked by the session
     std::unique_ptr<session<Element>> session_;
     mutable std::optional<vec<D>> origin_; ///< of what pages get
-    taut::constraints<Element> asked_; ///< by the person at the page
-    std::vector<char> outside_;        ///< of the focus, one per vertex; empty: there is none
+    taut::constraints<Element> asked_;     ///< by the person at the page
+    std::vector<char> outside_;            ///< of the focus, one per vertex; empty: there is none
     session_report report_;
     double distance_ = 0, energy_ = 0;
     int idle_ = 0; ///< calls in a row that gained nothing

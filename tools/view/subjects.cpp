@@ -200,8 +200,8 @@ public:
 
     view::model model() const override
     {
-        return {static_cast<std::uint8_t>(Element::dimension), showing::shape, name_, as_floats(opened::file.points, opened::file.points.front()),
-                as_list(faces_)};
+        return {static_cast<std::uint8_t>(Element::dimension), showing::shape, name_,
+                as_floats(opened::file.points, opened::file.points.front()), as_list(faces_)};
     }
 
     void start_afresh() override
@@ -272,7 +272,8 @@ public:
 
     view::model model() const override
     {
-        return {3, showing::shape, name_, as_floats(shell.surface().points(), shell.surface().points().front()), as_list(faces_)};
+        return {3, showing::shape, name_, as_floats(shell.surface().points(), shell.surface().points().front()),
+                as_list(faces_)};
     }
 
     void start_afresh() override

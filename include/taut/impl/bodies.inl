@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bodies of the parts that the headers of a program ask for: those of src/*.cpp in one unit. A second header may ask
+// The bodies of the parts that the headers of a program ask for: those of src/core, files and charts in one unit. A second header may ask
 // for more.
 
 // What a part calls of others.

@@ -227,8 +227,11 @@ TEST_CASE("reductions: a number is there after its fetch(), and until the next")
     reductions r(q);
     const auto before = r.sum(x);
     CHECK_THROWS_WITH_AS(r.value(before), doctest::Contains("call fetch() first"), taut::parameter_error);
-    r.fetch();
-    CHECK(r.value(before) == 10);
+    for (int again = 0; again < 2; ++again)
+    {
+        r.fetch();
+        CHECK(r.value(before) == 10);
+    }
     const auto after = r.sum(x);
     CHECK(r.value(before) == 10);
     CHECK_THROWS_AS(r.value(after), taut::parameter_error);

@@ -166,9 +166,8 @@ TEST_CASE("constraints: sets are fixed where they are and moved by a transform")
     check_refused([&] { taut::constraints(wavy).fix(ids); }, constraint_error::no_position, {});
 
     const auto volume = test::cube(2);
-    const auto lifted = taut::constraints(volume)
-                            .fix({0})
-                            .move(std::vector<taut::idx>{26}, [](const vec3& p) { return p + vec3(0, 0, 0.2); });
+    const auto lifted = taut::constraints(volume).fix({0}).move(std::vector<taut::idx>{26},
+                                                                [](const vec3& p) { return p + vec3(0, 0, 0.2); });
     CHECK(lifted.pins().at(26).value == vec3(1, 1, 1.2));
     CHECK(lifted.held(0) == 7);
     CHECK(taut::constraints(volume).pin(3, 2, 0.5).held(3) == 4);

@@ -58,7 +58,7 @@ struct reductions::body
     impl::reduction_plan plan;
     impl::partials partials;
     bool fetched = false;
-    std::size_t rounds = 0; ///< that are fetched
+    std::size_t round = 1, known = 0; ///< of jobs, and of values
     std::vector<job> jobs;
     std::vector<double> values;
     std::array<std::array<kernel, static_cast<std::size_t>(slot::end)>, 2> kernels;

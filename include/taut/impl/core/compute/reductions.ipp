@@ -84,7 +84,7 @@ reductions::result reductions::dots(std::span<const real_view> left, std::span<c
             if (x.type() != some[0].type()) throw parameter_error("dot", "float and double do not mix");
         }
     body_->begin_round();
-    const result all = {body_->jobs.size(), left.size() * right.size(), body_->rounds + 1};
+    const result all = {body_->jobs.size(), left.size() * right.size(), body_->round};
     const auto blocks = body_->plan.cut(n);
     const std::size_t local = std::min<std::size_t>(body_->plan.local, 128); // as the kernel has it
     body_->jobs.resize(all.first + all.count);
@@ -113,7 +113,7 @@ reductions::result reductions::dots(std::span<const real_view> left, std::span<c
 void reductions::fetch()
 {
     body_->fetched = true;
-    ++body_->rounds;
+    body_->known = body_->round;
     const auto host = body_->partials.fetch();
     body_->values.clear();
     for (const body::job& j : body_->jobs) body_->values.push_back(body_->folded(j, host.subspan(j.first, j.groups)));
@@ -121,9 +121,9 @@ void reductions::fetch()
 
 std::span<const double> reductions::values(result r) const
 {
-    if (r.round != body_->rounds)
-        throw parameter_error("result", r.round == body_->rounds + 1 ? "is not there yet; call fetch() first"
-                                                                     : "is not one of the last fetch()");
+    if (r.round != body_->known)
+        throw parameter_error("result", r.round > body_->known ? "is not there yet; call fetch() first"
+                                                               : "is not one of the last fetch()");
     return std::span<const double>(body_->values).subspan(r.first, r.count);
 }
 
@@ -131,6 +131,7 @@ void reductions::body::begin_round()
 {
     if (!fetched) return;
     fetched = false;
+    ++round;
     partials.clear();
     jobs.clear();
 }
@@ -143,7 +144,7 @@ std::size_t reductions::body::reserve(std::size_t count)
 
 reductions::result reductions::body::add(std::size_t first, std::size_t groups, std::size_t count, fold how)
 {
-    const result r = {jobs.size(), count, rounds + 1};
+    const result r = {jobs.size(), count, round};
     for (std::size_t k = 0; k < count; ++k) jobs.push_back({first + k * groups, groups, how});
     return r;
 }

@@ -149,7 +149,7 @@ void constraints<Element>::require_vertices(std::span<const idx> vertices) const
     for (const idx v : vertices)
         if (v < 0 || static_cast<std::size_t>(v) >= count()) bad.push_back(v);
     impl::refuse_vertices(constraint_error::out_of_range, std::move(bad),
-                          "that the mesh does not have; its last one is " + std::to_string(static_cast<std::ptrdiff_t>(count()) - 1));
+                          "that the mesh does not have; it has " + std::to_string(count()) + ", numbered from 0");
 }
 
 template <class Element>

@@ -54,7 +54,7 @@ bool mesh<Element>::is_proper(std::size_t c) const
         if (t[k] < 0 || t[k] >= n)
             throw mesh_error(mesh_error::index_out_of_range, {static_cast<idx>(c), t[k]},
                              std::string(Element::name) + ' ' + std::to_string(c) + " has vertex " +
-                                 std::to_string(t[k]) + "; vertices count from 0 to " + std::to_string(n - 1));
+                                 std::to_string(t[k]) + "; there are " + std::to_string(n) + ", numbered from 0");
         for (std::size_t j = 0; j < k; ++j) twice = twice || t[j] == t[k];
     }
     return !twice;

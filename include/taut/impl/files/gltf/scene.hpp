@@ -46,8 +46,18 @@ struct gltf_draw
 
 /// The nodes that draw meshes in a scene, in the order of their numbers; without scenes all nodes count. A skin places
 /// its mesh as its first joint does; animations and morphing are left aside.
-/// Throws io_error for nodes that are no trees, transforms that are none, instances of different counts.
+/// Throws io_error for nodes that are not trees, invalid transforms, instances of different counts.
 std::vector<gltf_draw> drawn_meshes(const gltf_source& source);
+
+/// Triangles of the model that a primitive of another mesh, or with another material, draws, too.
+struct gltf_copy
+{
+    std::size_t first, count;
+    std::size_t owner; ///< the mesh that has them
+    std::size_t mesh;  ///< the one that draws them as well
+    idx material;      ///< with this; -1: none
+};
+std::vector<gltf_copy> copied_triangles(const gltf_source& source);
 
 /// Gives each node that draws a mesh, but for the first, a copy of the mesh of its own, behind the others: with the
 /// same accessors, until texture coordinates are written. Meshes that share triangles otherwise have their own, too.

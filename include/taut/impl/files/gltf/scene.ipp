@@ -8,10 +8,12 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <taut/impl/files/gltf/accessor.hpp>
-#include <taut/impl/files/gltf/scene.hpp>
 #include <utility>
 #include <vector>
+
+#include <taut/impl/files/gltf/accessor.hpp>
+#include <taut/impl/files/gltf/primitives.hpp>
+#include <taut/impl/files/gltf/scene.hpp>
 
 namespace taut::io::impl
 {
@@ -126,7 +128,7 @@ private:
             for (const gltf_json& x : *list)
                 if (x.is_number()) result.push_back(x.get<double>());
         if (result.size() != count || list->size() != count)
-            object.fail("has a " + std::string(key) + " that is none; give " + std::to_string(count) + " numbers");
+            object.fail("has a " + std::string(key) + " that is not " + std::to_string(count) + " numbers");
         return result;
     }
 
@@ -158,7 +160,7 @@ private:
         {
             const vec3 v(rotation[0], rotation[1], rotation[2]);
             const double w = rotation[3], square = glm::dot(v, v) + w * w;
-            if (!(square > 0)) object.fail("has a rotation of length 0; give a unit quaternion, or none");
+            if (!(square > 0 && square < 1e200)) object.fail("has a rotation that is no unit quaternion");
             for (int k = 0; k < 3; ++k)
             {
                 vec3 e(0.0);
@@ -243,6 +245,19 @@ private:
 std::vector<gltf_draw> drawn_meshes(const gltf_source& source)
 {
     return gltf_scenes(source).draws();
+}
+
+std::vector<gltf_copy> copied_triangles(const gltf_source& source)
+{
+    const gltf_primitives primitives = primitives_of(source);
+    std::vector<gltf_copy> result;
+    for (const gltf_primitive& p : primitives.all)
+        if (p.copy_of)
+        {
+            const gltf_primitive& own = primitives.drawn_by(p);
+            result.push_back({own.first, own.count, own.mesh, p.mesh, p.material});
+        }
+    return result;
 }
 
 void part_meshes(gltf_source& source, std::span<const gltf_draw> draws)

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <taut/errors.hpp>
@@ -35,8 +36,7 @@ void write_volume(const std::filesystem::path& to, const mesh<Element>& m, std::
     for (std::size_t v = 0; v < x.size(); ++v)
         for (int k = 0; k < Element::dimension; ++k)
         {
-            if (!std::isfinite(x[v][k]))
-                throw parameter_error("x", "position " + std::to_string(v) + " is not finite");
+            if (!std::isfinite(x[v][k])) throw parameter_error("x", "position " + std::to_string(v) + " is not finite");
             points[v][k] = x[v][k];
         }
     if (Element::dimension == 2)

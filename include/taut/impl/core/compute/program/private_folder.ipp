@@ -37,11 +37,12 @@ inline int make_folder(const std::filesystem::path& folder)
 /// owns "/" may do anything.
 inline std::string fault_above(const std::filesystem::path& folder)
 {
-    const char* const home = std::getenv("HOME");
+    const char* const named = std::getenv("HOME");
+    std::error_code unknown;
+    const auto home = std::filesystem::weakly_canonical(named != nullptr ? named : "", unknown);
     struct stat state = {};
     const uid_t system = ::stat("/", &state) == 0 ? state.st_uid : 0;
-    for (auto below = folder; below.has_relative_path() && (home == nullptr || below != home);
-         below = below.parent_path())
+    for (auto below = folder; below.has_relative_path() && below != home; below = below.parent_path())
     {
         const auto above = below.parent_path();
         if (::stat(above.c_str(), &state) != 0) return std::generic_category().message(errno);
@@ -66,8 +67,9 @@ std::string fault_of_folder(const std::filesystem::path& folder, unsigned closed
     if ((state.st_mode & closed_to) != 0)
         return "others may write in it (`chmod go-w` ends that, if all that lies there is yours)";
     std::error_code failure;
-    const auto full = std::filesystem::weakly_canonical(std::filesystem::absolute(plain, failure), failure);
-    return fault_above(full);
+    auto full = std::filesystem::absolute(plain, failure);
+    if (!failure) full = std::filesystem::weakly_canonical(full, failure);
+    return failure ? failure.message() : fault_above(full);
 }
 
 std::string fault_of_made_folder(const std::filesystem::path& folder)

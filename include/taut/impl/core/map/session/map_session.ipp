@@ -75,7 +75,7 @@ std::ostream& operator<<(std::ostream& out, const session_report& r)
     if (r.outcome != outcome::valid) return out << "no valid map: " << r.reason;
     out << "E " << r.energy << (r.converged ? ", converged, " : ", not converged, ") << r.steps << " steps, ";
     if (!r.pins_held && r.farthest >= 0) out << "pin of vertex " << r.farthest << ' ' << r.distance << " away, ";
-    return out << r.flips.flipped << " of " << r.flips.elements << " flipped";
+    return out << r.flips.flipped << " of " << r.flips.elements << " inverted";
 }
 
 } // namespace taut

@@ -46,7 +46,7 @@ public:
             else
                 places.push_back(last.x[static_cast<std::size_t>(v)]);
         refuse_vertices(constraint_error::out_of_range, std::move(bad),
-                        "that the mesh does not have; its last one is " + std::to_string(last.x.size() - 1));
+                        "that the mesh does not have; it has " + std::to_string(last.x.size()) + ", numbered from 0");
         return places;
     }
 
