@@ -645,12 +645,11 @@ def stops():
     points, faces = ball(90)
     points = [[c * (1 + 0.02 * (rng.random() - 0.5)) for c in p] for p in points]
     write("rough.obj", points, faces)
-    for limit in (0.4, 0.8):
-        done = subprocess.run([TAUT, "atlas", "rough.obj", "-o", "rough.out.obj", "--time-limit", str(limit), "--stats",
-                               "s.json"], capture_output=True, text=True, check=False)
-        if done.returncode == 6: # it was still being read
-            assert "time limit" in done.stderr
-            continue
+    done = subprocess.run([TAUT, "atlas", "rough.obj", "-o", "rough.out.obj", "--time-limit", "0.8", "--stats", "s.json"],
+                          capture_output=True, text=True, check=False)
+    if done.returncode == 6: # it was still being read
+        assert "time limit" in done.stderr
+    else:
         assert done.returncode in (8, 0), done.stderr
         assert stats("s.json")["complete"] == (done.returncode == 0)
         judge("rough.out.obj", points, faces, samples=128)

@@ -322,7 +322,8 @@ def test_nodes_that_are_none_are_refused():
     assert "nodes 2 is a child of two nodes" in fault([{"children": [2]}, {"children": [2]}, {"mesh": 0}])
     assert "nodes 0 has a scale that is not 3 numbers" in fault([{"mesh": 0, "scale": [1, 2]}])
     assert "nodes 0 has a matrix that is not 16 numbers" in fault([{"mesh": 0, "matrix": ["1"] * 16}])
-    assert "rotation of length 0" in fault([{"mesh": 0, "rotation": [0, 0, 0, 0]}])
+    for rotation in ([0, 0, 0, 0], [1e200, 0, 0, 1]):
+        assert "a rotation that is no unit quaternion" in fault([{"mesh": 0, "rotation": rotation}])
     assert "meshes 7 is named" in fault([{"mesh": 7}])
     assert "nodes 9 is named" in fault([{"mesh": 0, "children": [9]}], roots=[0])
     (FOLDER / "cube.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
