@@ -2,15 +2,17 @@
 #include "eval/atlas_measures.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include <taut/charts.hpp>
 #include <taut/impl/charts/atlas/atlas_summary.hpp>
 #include <taut/impl/charts/atlas/chart_mesh.hpp>
-#include <taut/impl/charts/bake/triangle_tiles.hpp>
 #include <taut/impl/core/mesh/validate.hpp>
 #include <taut/mesh.hpp>
 
@@ -48,6 +50,22 @@ column_span inside_of(const vec2& a, const vec2& b, int y, column_span within)
     return rises ? column_span{x, within.last} : column_span{within.first, x};
 }
 
+/// Marks columns of a row that has a bit for each; how many were not marked.
+int mark(std::uint64_t* row, column_span columns)
+{
+    int fresh = 0;
+    const int first = columns.first / 64, last = (columns.last - 1) / 64;
+    for (int k = first; k <= last; ++k)
+    {
+        std::uint64_t bits = ~std::uint64_t{0};
+        if (k == first) bits &= ~std::uint64_t{0} << (columns.first % 64);
+        if (k == last) bits &= ~std::uint64_t{0} >> (63 - (columns.last - 1) % 64);
+        fresh += std::popcount(bits & ~row[k]);
+        row[k] |= bits;
+    }
+    return fresh;
+}
+
 /// 1 - area of the union of triangles by the sum of their areas, sampled on a grid over their box. A sample is marked
 /// once, however many triangles lie on it.
 double overlap_area(std::span<const std::array<idx, 3>> cells, std::span<const vec2> uv)
@@ -63,8 +81,9 @@ double overlap_area(std::span<const std::array<idx, 3>> cells, std::span<const v
         }
     const double unit = std::max(high.x - low.x, high.y - low.y) / side;
     if (!(unit > 0) || !std::isfinite(unit)) return 0;
-    impl::open_tiles open(side, side);
-    std::size_t samples = 0, points = 0;
+    std::vector<std::uint64_t> covered(std::size_t(side) * side / 64, 0);
+    std::vector<int> marked(side, 0); // of each row
+    std::size_t samples = 0;
     for (const auto& t : cells)
     {
         std::array<vec2, 3> p{};
@@ -78,13 +97,11 @@ double overlap_area(std::span<const std::array<idx, 3>> cells, std::span<const v
             for (std::size_t k = 0; k < 3 && row.first < row.last; ++k) row = inside_of(p[k], p[(k + 1) % 3], y, row);
             if (row.first >= row.last) continue;
             samples += static_cast<std::size_t>(row.last - row.first);
-            for (idx x = open.from(y, row.first); x < row.last; x = open.from(y, x))
-            {
-                open.close(y, x);
-                ++points;
-            }
+            if (int& here = marked[static_cast<std::size_t>(y)]; here < side)
+                here += mark(&covered[static_cast<std::size_t>(y) * side / 64], row);
         }
     }
+    const auto points = std::accumulate(marked.begin(), marked.end(), std::size_t{0});
     return samples > 0 ? 1 - static_cast<double>(points) / static_cast<double>(samples) : 0;
 }
 
