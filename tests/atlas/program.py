@@ -12,6 +12,8 @@ import subprocess
 import sys
 import time
 
+import shapes
+
 TAUT, FOLDER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 
 
@@ -19,30 +21,14 @@ TAUT, FOLDER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 
 def ball(n, radius=1.0, bumps=0.0):
     """A closed surface: a cube with n^2 squares a face, blown up, with bumps."""
-    points, triangles, number = [], [], {}
+    def place(p):
+        x = [math.tan((2 * c / n - 1) * math.pi / 4) for c in p]
+        length = math.sqrt(sum(c * c for c in x))
+        x = [c / length for c in x]
+        r = radius * (1 + bumps * math.sin(5 * x[0] + 1) * math.sin(4 * x[1]) * math.cos(6 * x[2]))
+        return [r * c for c in x]
 
-    def vertex(p):
-        if p not in number:
-            number[p] = len(points)
-            x = [math.tan((2 * c / n - 1) * math.pi / 4) for c in p]
-            length = math.sqrt(sum(c * c for c in x))
-            x = [c / length for c in x]
-            r = radius * (1 + bumps * math.sin(5 * x[0] + 1) * math.sin(4 * x[1]) * math.cos(6 * x[2]))
-            points.append([r * c for c in x])
-        return number[p]
-
-    for axis in range(3):
-        for side in (0, n):
-            for i in range(n):
-                for j in range(n):
-                    def at(a, b):
-                        p = [0, 0, 0]
-                        p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, a, b
-                        return vertex(tuple(p))
-                    q = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
-                    q = q if side else q[::-1]
-                    triangles += [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]
-    return points, triangles
+    return shapes.cube(n, place)
 
 
 def torus(n, m, R=2.0, r=0.7):

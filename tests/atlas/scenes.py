@@ -10,6 +10,8 @@ import struct
 import subprocess
 import sys
 
+import shapes
+
 TAUT, FOLDER = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
 FORMATS = {5120: ("b", 127), 5121: ("B", 255), 5122: ("h", 32767), 5123: ("H", 65535), 5125: ("I", 1), 5126: ("f", 1)}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
@@ -33,26 +35,7 @@ def atlas(name, *options, out="out.glb"):
 
 def cube(n=2):
     """Points and triangles of the surface of [0, 1]^3, n^2 squares a side."""
-    points, triangles, number = [], [], {}
-
-    def vertex(p):
-        if p not in number:
-            number[p] = len(points)
-            points.append(tuple(c / n for c in p))
-        return number[p]
-
-    for axis in range(3):
-        for side in (0, n):
-            for i in range(n):
-                for j in range(n):
-                    def at(a, b):
-                        p = [0, 0, 0]
-                        p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, a, b
-                        return vertex(tuple(p))
-                    q = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
-                    q = q if side else q[::-1]
-                    triangles += [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]
-    return points, triangles
+    return shapes.cube(n, lambda p: tuple(c / n for c in p))
 
 
 def flat(rows):
@@ -278,6 +261,15 @@ def test_meshes_of_the_same_triangles_count_as_one():
     for name in ("first", "second", "top", "red", "blue"):
         atlas("same.glb", *PAGE, "--density", name + "=0.5")
         require_densities("out.glb", 512, {0: 40, 1: 8, 2: 16})
+    # A second part of the first mesh, which the second one does not draw, is not of its name.
+    second = model.mesh([(x + 3, y, z) for x, y, z in cube()[0]], cube()[1])
+    model.document["meshes"][0]["primitives"].append(model.document["meshes"].pop(second)["primitives"][0])
+    model.write("same.glb", [{"mesh": 0}, {"mesh": 1, "name": "top"}, {"mesh": 2}])
+    for name in ("second", "top"):
+        atlas("same.glb", *PAGE, "--density", name + "=0.5")
+        found = densities("out.glb", 512)
+        assert [round(x, 1) for x in (*found[0], *found[1])] == [8, 16, 8, 8], found
+    model.document["meshes"][0]["primitives"].pop()
     model.write("same.glb", [{"mesh": 1, "scale": [5, 5, 5]}, {"mesh": 2}])
     atlas("same.glb", *PAGE)
     require_densities("out.glb", 512, {0: 16, 1: 16})

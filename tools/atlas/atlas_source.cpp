@@ -341,16 +341,16 @@ private:
     /// A node that draws triangles of another mesh draws that mesh.
     void find_copies()
     {
+        drawing_ = draws_.size();
         copies_ = io::impl::copied_triangles(model_.source);
         std::map<std::size_t, std::set<std::size_t>> owners;
         for (const auto& c : copies_)
             if (c.owner != c.mesh) owners[c.mesh].insert(c.owner);
-        const auto draws = draws_;
-        for (auto draw : draws)
-            for (const std::size_t owner : owners[draw.mesh])
+        for (std::size_t i = 0; i < drawing_; ++i)
+            for (const std::size_t owner : owners[draws_[i].mesh])
             {
-                draw.mesh = owner;
-                draws_.push_back(draw);
+                draws_.push_back(draws_[i]);
+                draws_.back().mesh = owner;
             }
     }
 
@@ -395,9 +395,9 @@ private:
     std::set<std::string> names_of_mesh(idx i) const
     {
         auto result = names_of_item("meshes", i);
-        for (const auto& draw : draws_)
-            if (draw.mesh == static_cast<std::size_t>(i))
-                result.merge(names_of_item("nodes", static_cast<idx>(draw.node)));
+        for (std::size_t k = 0; k < drawing_; ++k)
+            if (draws_[k].mesh == static_cast<std::size_t>(i))
+                result.merge(names_of_item("nodes", static_cast<idx>(draws_[k].node)));
         return result;
     }
 
@@ -426,7 +426,8 @@ private:
     }
 
     io::gltf_model model_;
-    std::vector<io::impl::gltf_draw> draws_;
+    std::vector<io::impl::gltf_draw> draws_; ///< of nodes, then again of meshes whose triangles they draw as copies
+    std::size_t drawing_ = 0;                ///< how many of them are of nodes
     std::vector<io::impl::gltf_copy> copies_;
     int set_;
 };
